@@ -1,0 +1,2 @@
+//! Campaign file, pipeline, parts, resume and replay
+#![forbid(unsafe_code)]

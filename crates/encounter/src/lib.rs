@@ -1,0 +1,2 @@
+//! Where encounters come from: random strata, named sets, other tools' files
+#![forbid(unsafe_code)]

@@ -1,0 +1,2 @@
+//! Frames, angles, CPA, hull outlines and deterministic maths
+#![forbid(unsafe_code)]

@@ -1,0 +1,2 @@
+//! Planners from outside, and the supervised engine process
+#![forbid(unsafe_code)]

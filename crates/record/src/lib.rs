@@ -1,0 +1,2 @@
+//! The spine, plain data: encounter, trace, verdict, row, digest
+#![forbid(unsafe_code)]

@@ -1,0 +1,2 @@
+//! The judge: a trace and a rule set become verdicts
+#![forbid(unsafe_code)]

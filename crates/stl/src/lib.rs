@@ -1,0 +1,2 @@
+//! The second judge: temporal-logic robustness over the same trace
+#![forbid(unsafe_code)]
