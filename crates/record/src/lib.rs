@@ -1,2 +1,32 @@
-//! The spine, plain data: encounter, trace, verdict, row, digest
+//! The spine: plain data that every stage reads or writes.
+//!
+//! `Encounter -> Trace -> Verdict -> RunRow`, with the identity of an encounter, its random
+//! streams and the digest of its trace. No stage hides state of its own in here.
 #![forbid(unsafe_code)]
+
+pub mod check;
+pub mod digest;
+pub mod encounter;
+pub mod id;
+pub mod outcome;
+pub mod row;
+pub mod stream;
+pub mod trace;
+pub mod verdict;
+
+pub use check::Check;
+pub use digest::{Digest, RootDigest};
+pub use encounter::{
+    Asked, DistanceKind, Encounter, Intent, Motion, OwnShip, RunLimits, RunUntil, Sensing, Target,
+    Vessel, Visibility, Waypoint, Weather,
+};
+pub use geom::EncounterClass;
+pub use id::EncounterId;
+pub use outcome::Outcome;
+pub use row::{CheckCell, RunRow};
+pub use stream::{Purpose, Seed, Stream, Streams};
+pub use trace::{
+    Alert, Contact, ContactWith, LastInstant, LastMinute, Nominal, Order, Pair, PairMinimum,
+    PlannerEvents, Ship, ShipTrack, Trace,
+};
+pub use verdict::{Evidence, Judgement, PairFacts, Reaction, Role, Status, Unit, Verdict};

@@ -1,0 +1,1 @@
+//! The conformance kit: what every planner must satisfy, whoever wrote it.
