@@ -12,6 +12,7 @@
 pub mod command;
 pub mod conformance;
 pub mod events;
+pub mod failure;
 pub mod mission;
 pub mod registry;
 pub mod situation;
@@ -19,6 +20,7 @@ pub mod stream;
 
 pub use command::{Alert, Command, CommandError, Order};
 pub use events::PlannerEvents;
+pub use failure::{FailureKind, PlannerFailure};
 pub use mission::{Mission, OwnShip, Waypoint};
 pub use registry::{Options, OptionsError, PlannerEntry, Registry};
 pub use situation::{OwnState, Situation, TargetTrack};

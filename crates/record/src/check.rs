@@ -6,9 +6,8 @@ macro_rules! checks {
     ($($(#[$doc:meta])* $variant:ident = $name:literal, $title:literal;)*) => {
         /// A check of the judge.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-        #[serde(rename_all = "snake_case")]
         #[repr(u8)]
-        pub enum Check { $($(#[$doc])* $variant,)* }
+        pub enum Check { $($(#[$doc])* #[serde(rename = $name)] $variant,)* }
 
         impl Check {
             /// Every check, in the order of reports.
