@@ -1,2 +1,30 @@
-//! Where encounters come from: random strata, named sets, other tools' files
+//! Where encounters come from: random strata, named sets, other tools' files.
+//!
+//! First stage of the way of the data: a table of the campaign file goes in, [`record::Encounter`]
+//! comes out. Read [`sample`] first: it draws one encounter.
 #![forbid(unsafe_code)]
+
+pub mod course;
+pub mod distribution;
+pub mod dnv;
+mod dnv_ship;
+pub mod error;
+pub mod geographic;
+mod json;
+pub mod limits;
+pub mod nominal;
+pub mod placement;
+pub mod sample;
+pub mod situation;
+pub mod spec;
+mod target;
+pub mod wanted;
+
+pub use distribution::Distribution;
+pub use dnv::{SituationSettings, read_situations};
+pub use error::Error;
+pub use limits::{Limits, ScaledLimits};
+pub use nominal::{class_at_start, last_cpa_s, nominal_cpa};
+pub use sample::{Drawn, Generator, RunSettings};
+pub use situation::{SetSettings, Situation, situations};
+pub use spec::Model;

@@ -1,2 +1,26 @@
-//! Rows become counts and histograms that add up, and those become summary.json
+//! Rows become counts that add up, and those become `summary.json`.
+//!
+//! `RunRow -> Tally -> Summary`. A tally holds integers only, so the tallies of any partition of
+//! the rows, merged in any order, are equal to the tally of all of them, byte for byte: threads,
+//! shards and resumed runs cannot change a number. Every rate in `summary.json` is made from a
+//! tally by `stats`, and from nothing else.
 #![forbid(unsafe_code)]
+
+mod bearing_map;
+mod build;
+mod fixed_point;
+mod risk;
+mod summary;
+mod tallies;
+mod tally;
+mod times;
+
+pub use bearing_map::{BEARING_SECTORS, BearingMap, Cell, CellKey, RATIO_BANDS};
+pub use fixed_point::FixedSum;
+pub use risk::PairedCounts;
+pub use summary::{
+    BoundedRate, CpaSummary, PairedRates, StratumSummary, Summary, SummaryHead, TimeSummary,
+};
+pub use tallies::Tallies;
+pub use tally::Tally;
+pub use times::Times;

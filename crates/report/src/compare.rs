@@ -1,0 +1,194 @@
+//! Several planners on the same encounters, side by side.
+
+use crate::figure::Figure;
+use crate::input::Compared;
+use crate::number::{NONE, count, fixed, per_cent_or_none, significant};
+use crate::page::{bounds, check_rate, css, fill, inline};
+use crate::write::Rendered;
+use crate::{ReportError, figure_rates};
+use record::{Check, Status};
+use serde::Serialize;
+use std::path::Path;
+use summary::{BoundedRate, PairedRates, StratumSummary};
+
+/// `comparison.html` and its figures.
+pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError> {
+    let wholes: Vec<StratumSummary> = columns
+        .iter()
+        .map(|column| StratumSummary::new(&column.summary.planner, &column.tallies.total()))
+        .collect();
+    let mut figures = vec![Figure {
+        stem: "comparison".to_owned(),
+        title: "Rates and their bounds, all strata".to_owned(),
+        ..figure_rates::figure(&wholes, &runs(&wholes))
+    }];
+    for name in stratum_names(columns) {
+        let strata: Vec<StratumSummary> = columns
+            .iter()
+            .filter_map(|column| {
+                let tally = column.tallies.stratum(&name)?;
+                Some(StratumSummary::new(&column.summary.planner, tally))
+            })
+            .collect();
+        figures.push(Figure {
+            stem: format!("comparison-{}", name.replace(|c: char| !c.is_alphanumeric(), "-")),
+            title: name,
+            ..figure_rates::figure(&strata, &runs(&strata))
+        });
+    }
+    let first = columns.first();
+    let view = View {
+        css: css(),
+        title: first.map_or("", |column| &column.card.title),
+        campaign: first.map_or("", |column| &column.card.campaign),
+        seed: first.map_or_else(String::new, |column| column.summary.seed.to_string()),
+        tool: first.map_or("", |column| &column.card.tool),
+        problems: problems(columns),
+        planners: columns
+            .iter()
+            .map(|column| Planner { name: &column.summary.planner, link: column.link })
+            .collect(),
+        lines: lines(&wholes),
+        figures: figures.iter().map(inline).collect(),
+    };
+    let text = fill("comparison.html", include_str!("../templates/comparison.html"), &view)?;
+    let mut files = vec![Rendered { path: "comparison.html".into(), text }];
+    files.extend(figures.into_iter().filter_map(|figure| {
+        let path = Path::new("figures").join(format!("{}.svg", figure.stem));
+        figure.svg.map(|text| Rendered { path, text })
+    }));
+    Ok(files)
+}
+
+#[derive(Serialize)]
+struct View<'a> {
+    css: String,
+    title: &'a str,
+    campaign: &'a str,
+    seed: String,
+    tool: &'a str,
+    problems: Vec<String>,
+    planners: Vec<Planner<'a>>,
+    lines: Vec<Line>,
+    figures: Vec<Figure>,
+}
+
+#[derive(Serialize)]
+struct Planner<'a> {
+    name: &'a str,
+    link: &'a str,
+}
+
+#[derive(Serialize)]
+struct Line {
+    label: String,
+    cells: Vec<Cell>,
+}
+
+#[derive(Serialize)]
+struct Cell {
+    value: String,
+    small: String,
+}
+
+/// More strata than this have their figures in the single reports only.
+const STRATA_MAX: usize = 12;
+
+fn stratum_names(columns: &[Compared]) -> Vec<String> {
+    let strata = columns.first().map_or(&[][..], |column| &column.summary.strata);
+    if strata.len() > STRATA_MAX || strata.len() < 2 {
+        return Vec::new();
+    }
+    strata.iter().map(|stratum| stratum.name.clone()).collect()
+}
+
+fn runs(lines: &[StratumSummary]) -> String {
+    let each: Vec<String> = lines.iter().map(|line| count(line.n)).collect();
+    format!("a line for each planner, n = {}", each.join(", "))
+}
+
+/// Numbers of different encounters must not stand beside each other without a word.
+fn problems(columns: &[Compared]) -> Vec<String> {
+    let Some((first, others)) = columns.split_first() else {
+        return vec!["There is no planner to compare.".to_owned()];
+    };
+    let same = |other: &&Compared| {
+        let names = |column: &Compared| -> Vec<(String, u64)> {
+            column.summary.strata.iter().map(|s| (s.name.clone(), s.n)).collect()
+        };
+        other.summary.campaign == first.summary.campaign
+            && other.summary.seed == first.summary.seed
+            && names(other) == names(first)
+    };
+    others
+        .iter()
+        .filter(|other| !same(other))
+        .map(|other| {
+            format!(
+                "{} did not meet the same encounters as {}: their numbers cannot be compared.",
+                other.summary.planner, first.summary.planner
+            )
+        })
+        .collect()
+}
+
+fn lines(wholes: &[StratumSummary]) -> Vec<Line> {
+    let plain = |label: &str, of: &dyn Fn(&StratumSummary) -> String| Line {
+        label: label.to_owned(),
+        cells: wholes.iter().map(|s| Cell { value: of(s), small: String::new() }).collect(),
+    };
+    let rate = |label: &str, of: &dyn Fn(&StratumSummary) -> BoundedRate| Line {
+        label: label.to_owned(),
+        cells: wholes
+            .iter()
+            .map(|s| {
+                let rate = of(s);
+                let value = format!(
+                    "{} ({} of {})",
+                    per_cent_or_none(rate.rate),
+                    count(rate.k),
+                    count(rate.n)
+                );
+                Cell { value, small: bounds(&rate) }
+            })
+            .collect(),
+    };
+    let mut lines = vec![
+        plain("encounters", &|s| count(s.n)),
+        plain("outcome unknown", &|s| count(s.unknown)),
+        rate("collisions", &|s| s.collision),
+        rate("safety radius broken", &|s| s.safety_radius),
+        Line {
+            label: "collisions with over without avoiding".to_owned(),
+            cells: wholes.iter().map(|s| ratio_cell(&s.collision_pairs)).collect(),
+        },
+        plain("collisions caused by avoiding", &|s| count(s.collision_pairs.caused)),
+        plain("reaction, s: half · 95 %", &|s| {
+            let times = &s.reaction_time_s;
+            format!("{} · {}", fixed(times.median, 1), fixed(times.p95, 1))
+        }),
+        plain("smallest distance, m: 1 % · half below", &|s| {
+            format!("{} · {}", fixed(s.min_cpa_m.p01, 1), fixed(s.min_cpa_m.median, 1))
+        }),
+    ];
+    for check in Check::ALL {
+        let of = |s: &StratumSummary| {
+            check_rate(|status: Status| {
+                s.checks.get(&check).and_then(|all| all.get(&status)).copied().unwrap_or(0)
+            })
+        };
+        if wholes.iter().any(|s| of(s).n > 0) {
+            lines.push(rate(&format!("failed: {}", check.title()), &of));
+        }
+    }
+    lines
+}
+
+fn ratio_cell(pairs: &PairedRates) -> Cell {
+    let ratio = |value: Option<f64>| value.map_or(NONE.to_owned(), |r| significant(r, 3));
+    let bounds = || format!("{} to {}", ratio(pairs.lower_95), ratio(pairs.upper_95));
+    Cell {
+        value: ratio(pairs.risk_ratio),
+        small: pairs.risk_ratio.map_or_else(String::new, |_| bounds()),
+    }
+}

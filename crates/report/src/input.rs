@@ -1,0 +1,69 @@
+//! What a report is made from. Nothing in it is a literal of the report's own.
+
+use record::{DistanceKind, Encounter, Judgement, RunRow, Trace};
+use summary::{Summary, Tallies};
+
+/// What a reader must know of a campaign, as text; every value from the resolved campaign.
+#[derive(Clone, Debug)]
+pub struct Card {
+    /// Title of the campaign.
+    pub title: String,
+    /// Its short name.
+    pub campaign: String,
+    /// The planner, options included.
+    pub planner: String,
+    /// Name and version of the rule set.
+    pub rules: String,
+    /// Tool and version.
+    pub tool: String,
+    /// The one kind of distance of the campaign.
+    pub distance: DistanceKind,
+    /// Distance that own ship shall keep, metres.
+    pub safety_radius_m: f64,
+    /// The command that runs one encounter again; `{id}` stands for its id.
+    pub replay_command: String,
+    /// Every resolved value that is worth showing: key and value.
+    pub resolved: Vec<(String, String)>,
+    /// What this campaign in particular does not show; sentences. The report adds those that
+    /// follow from the numbers.
+    pub not_claimed: Vec<String>,
+}
+
+/// An encounter that is shown with its tracks.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Before it was run.
+    pub encounter: Encounter,
+    /// What happened.
+    pub trace: Trace,
+    /// What the judge says of it.
+    pub judgement: Judgement,
+    /// Its row.
+    pub row: RunRow,
+}
+
+/// A report of one planner.
+#[derive(Clone, Copy, Debug)]
+pub struct ReportInput<'a> {
+    /// What was run.
+    pub card: &'a Card,
+    /// `summary.json`.
+    pub summary: &'a Summary,
+    /// The counts that it was made from.
+    pub tallies: &'a Tallies,
+    /// The worst encounters, worst first.
+    pub cases: &'a [Case],
+}
+
+/// One column of a comparison.
+#[derive(Clone, Copy, Debug)]
+pub struct Compared<'a> {
+    /// What was run.
+    pub card: &'a Card,
+    /// Its `summary.json`.
+    pub summary: &'a Summary,
+    /// Its counts.
+    pub tallies: &'a Tallies,
+    /// Its report, relative to the comparison: `zhuang/report.html`.
+    pub link: &'a str,
+}

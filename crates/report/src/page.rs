@@ -1,0 +1,340 @@
+//! `report.html`: one file that needs no network, filled from numbers alone.
+
+use crate::canvas::Ink;
+use crate::figure::{DataTable, Figure};
+use crate::group::{Group, all, groups};
+use crate::input::{Case, ReportInput};
+use crate::number::{NONE, count, fixed, per_cent, per_cent_or_none};
+use crate::page_tables::{avoiding, classes, outcomes};
+use crate::wording::{Verdict, encounters, not_claimed, verdict};
+use crate::{ReportError, case_figure, figure_cpa, figure_map, figure_rates, figure_times, font};
+use record::{Check, Status};
+use serde::Serialize;
+use summary::{BoundedRate, StratumSummary, Tally};
+
+/// All figures of a report, those of the cases last.
+pub(crate) fn figures(input: &ReportInput) -> Vec<Figure> {
+    let card = input.card;
+    let groups = groups(input);
+    let strata = input.summary.strata.iter().filter(|stratum| stratum.n > 0).count();
+    let runs = format!(
+        "n = {} in {strata} strat{}",
+        count(input.summary.encounters),
+        if strata == 1 { "um" } else { "a" }
+    );
+    let mut figures = vec![
+        figure_rates::figure(&rate_lines(input), &runs),
+        figure_cpa::figure(&groups, card.safety_radius_m, card.distance),
+        figure_times::figure(&groups),
+        figure_map::figure(&all(input).tally),
+    ];
+    figures.extend(input.cases.iter().map(case_figure::figure));
+    figures
+}
+
+/// The page, with the figures of [`figures`].
+pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, ReportError> {
+    let (general, cases) = figures.split_at(figures.len() - input.cases.len());
+    let card = input.card;
+    let whole = all(input);
+    let view = View {
+        css: css(),
+        head: Head {
+            title: &card.title,
+            planner: &card.planner,
+            campaign: &card.campaign,
+            rules: &card.rules,
+            tool: &card.tool,
+            seed: input.summary.seed.to_string(),
+            encounters: encounters(input.summary.encounters),
+            root_digest: &input.summary.root_digest,
+        },
+        verdict: verdict(&whole.summary),
+        cards: cards(&whole.summary),
+        not_claimed: not_claimed(input, &whole),
+        strata: strata(input, &whole),
+        figures: general.iter().map(inline).collect(),
+        rules: Check::ALL.into_iter().map(|check| rule_line(&whole.tally, check)).collect(),
+        classes: classes(&whole.tally),
+        avoiding: avoiding(&whole.summary),
+        outcomes: outcomes(input, &whole),
+        unavoidable: unavoidable(&whole),
+        cases: input.cases.iter().zip(cases).map(|(c, f)| case_view(input, c, f)).collect(),
+        resolved: &card.resolved,
+    };
+    fill("report.html", include_str!("../templates/report.html"), &view)
+}
+
+/// Fills a template whose name ends in `.html`, which switches the escaping on.
+pub(crate) fn fill(
+    name: &'static str,
+    template: &'static str,
+    view: &impl Serialize,
+) -> Result<String, ReportError> {
+    let fail = |source| ReportError::Template { page: name, source };
+    let mut environment = minijinja::Environment::new();
+    environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
+    environment.add_template(name, template).map_err(fail)?;
+    let view = minijinja::Value::from(minijinja::value::Serde(view));
+    environment.get_template(name).and_then(|page| page.render(view)).map_err(fail)
+}
+
+pub(crate) fn css() -> String {
+    font::face_css() + include_str!("../templates/report.css")
+}
+
+/// The figure as part of a page: colours from its style sheet, fonts from the page.
+pub(crate) fn inline(figure: &Figure) -> Figure {
+    let themed = figure.svg.as_ref().map(|svg| {
+        let (before, rest) = svg.split_once("<style>").unwrap_or((svg, ""));
+        let after = rest.split_once("</style>").map_or(rest, |(_, after)| after);
+        let mut svg = format!("{before}{after}");
+        for (ink, variable) in Ink::THEMED {
+            svg = svg.replace(&format!("\"{}\"", ink.hex()), &format!("\"var({variable})\""));
+        }
+        svg.replace(&format!(" font-family=\"{}\"", font::STACK), "")
+    });
+    Figure { svg: themed, ..figure.clone() }
+}
+
+#[derive(Serialize)]
+struct View<'a> {
+    css: String,
+    head: Head<'a>,
+    verdict: Verdict,
+    cards: Vec<Headline>,
+    not_claimed: Vec<String>,
+    strata: Vec<StratumLine>,
+    figures: Vec<Figure>,
+    rules: Vec<RuleLine>,
+    classes: DataTable,
+    avoiding: DataTable,
+    outcomes: DataTable,
+    unavoidable: Option<String>,
+    cases: Vec<CaseView>,
+    resolved: &'a [(String, String)],
+}
+
+#[derive(Serialize)]
+struct Head<'a> {
+    title: &'a str,
+    planner: &'a str,
+    campaign: &'a str,
+    rules: &'a str,
+    tool: &'a str,
+    seed: String,
+    encounters: String,
+    root_digest: &'a str,
+}
+
+#[derive(Serialize)]
+struct Headline {
+    label: &'static str,
+    value: String,
+    lines: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct StratumLine {
+    name: String,
+    all: bool,
+    n: String,
+    collision: RateCell,
+    collided: bool,
+    safety_radius: RateCell,
+    broken: bool,
+    unknown: String,
+    turn: String,
+    reaction: String,
+    cpa: String,
+}
+
+#[derive(Serialize)]
+struct RateCell {
+    k: String,
+    bounds: String,
+}
+
+#[derive(Serialize)]
+struct RuleLine {
+    title: &'static str,
+    applied: String,
+    coverage: String,
+    pass: String,
+    warn: String,
+    fail: String,
+    failed: bool,
+    inconclusive: String,
+    not_applicable: String,
+    not_evaluated: String,
+    rate: String,
+    bounds: String,
+}
+
+#[derive(Serialize)]
+struct CaseView {
+    figure: Figure,
+    outcome: String,
+    facts: String,
+    sentences: Vec<String>,
+    replay: String,
+}
+
+/// `0.1 % to 0.3 %`, or the sign for none.
+pub(crate) fn bounds(rate: &BoundedRate) -> String {
+    if rate.n == 0 {
+        return NONE.to_owned();
+    }
+    format!("{} to {}", per_cent(rate.lower_95), per_cent(rate.upper_95))
+}
+
+/// The rate of a check among the runs to which it applied: inconclusive ones are unknown.
+pub(crate) fn check_rate(of: impl Fn(Status) -> u64) -> BoundedRate {
+    let [pass, warn, fail, inconclusive] =
+        [Status::Pass, Status::Warn, Status::Fail, Status::Inconclusive].map(of);
+    BoundedRate::new(fail, inconclusive, pass + warn + fail + inconclusive)
+}
+
+fn turn_rate(summary: &StratumSummary) -> BoundedRate {
+    check_rate(|status| summary.turn_direction.get(&status).copied().unwrap_or(0))
+}
+
+/// The strata, and all together when there are several.
+fn rate_lines(input: &ReportInput) -> Vec<StratumSummary> {
+    let mut lines: Vec<StratumSummary> =
+        input.summary.strata.iter().filter(|stratum| stratum.n > 0).cloned().collect();
+    if lines.len() > 1 {
+        lines.push(all(input).summary);
+    }
+    lines
+}
+
+fn cards(whole: &StratumSummary) -> Vec<Headline> {
+    let rate = |label, rate: &BoundedRate, of: &str| Headline {
+        label,
+        value: per_cent_or_none(rate.rate),
+        lines: vec![
+            format!("{} of {} {of}", count(rate.k), count(rate.n)),
+            format!("95 % bounds {}", bounds(rate)),
+        ],
+    };
+    let reaction = &whole.reaction_time_s;
+    vec![
+        rate("Collisions", &whole.collision, "encounters"),
+        rate("Safety radius broken", &whole.safety_radius, "encounters"),
+        rate("Turn direction failed", &turn_rate(whole), "to which it applied"),
+        Headline {
+            label: "Reaction time, half by",
+            value: reaction.median.map_or(NONE.to_owned(), |s| format!("{} s", fixed(Some(s), 1))),
+            lines: vec![
+                format!("95 % by {} s, n = {}", fixed(reaction.p95, 1), count(reaction.n)),
+                format!(
+                    "{} never or cut short, {} early",
+                    count(reaction.censored),
+                    count(reaction.early)
+                ),
+            ],
+        },
+    ]
+}
+
+fn strata(input: &ReportInput, whole: &Group) -> Vec<StratumLine> {
+    let line = |s: &StratumSummary, all: bool| {
+        let turn = turn_rate(s);
+        StratumLine {
+            name: s.name.clone(),
+            all,
+            n: count(s.n),
+            collision: RateCell { k: count(s.collision.k), bounds: bounds(&s.collision) },
+            collided: s.collision.k > 0,
+            safety_radius: RateCell {
+                k: count(s.safety_radius.k),
+                bounds: bounds(&s.safety_radius),
+            },
+            broken: s.safety_radius.k > 0,
+            unknown: count(s.unknown),
+            turn: format!("{} of {}", count(turn.k), count(turn.n)),
+            reaction: format!(
+                "{} · {}",
+                fixed(s.reaction_time_s.median, 1),
+                fixed(s.reaction_time_s.p95, 1)
+            ),
+            cpa: format!("{} · {}", fixed(s.min_cpa_m.p01, 1), fixed(s.min_cpa_m.median, 1)),
+        }
+    };
+    let mut lines: Vec<StratumLine> =
+        input.summary.strata.iter().map(|stratum| line(stratum, false)).collect();
+    if lines.len() > 1 {
+        lines.push(line(&whole.summary, true));
+    }
+    lines
+}
+
+fn rule_line(tally: &Tally, check: Check) -> RuleLine {
+    let of = |status| tally.check(check, status);
+    let rate = check_rate(of);
+    let share =
+        |n: u64| if tally.n == 0 { NONE.into() } else { per_cent(n as f64 / tally.n as f64) };
+    RuleLine {
+        title: check.title(),
+        applied: count(rate.n),
+        coverage: share(rate.n),
+        pass: count(of(Status::Pass)),
+        warn: count(of(Status::Warn)),
+        fail: count(of(Status::Fail)),
+        failed: of(Status::Fail) > 0,
+        inconclusive: count(of(Status::Inconclusive)),
+        not_applicable: count(of(Status::NotApplicable)),
+        not_evaluated: count(of(Status::NotEvaluated)),
+        rate: per_cent_or_none(rate.rate),
+        bounds: bounds(&rate),
+    }
+}
+
+fn unavoidable(whole: &Group) -> Option<String> {
+    let asked = whole.tally.avoidable + whole.tally.unavoidable;
+    (asked > 0).then(|| {
+        format!(
+            "Of {} encounters that were searched for an escape, {} had none for own ship alone; {} \
+             of those ended in a collision or an unknown outcome. They stay in every rate.",
+            count(asked),
+            count(whole.tally.unavoidable),
+            count(whole.tally.unavoidable_failed),
+        )
+    })
+}
+
+fn case_view(input: &ReportInput, case: &Case, figure: &Figure) -> CaseView {
+    let row = &case.row;
+    let mut facts = vec![
+        format!("smallest distance between hulls {} m", fixed(row.cpa_hull_m, 1)),
+        format!("without avoiding {} m", fixed(row.nominal_cpa_hull_m, 1)),
+        match row.targets {
+            1 => "one target".to_owned(),
+            several => format!("{several} targets"),
+        },
+        format!("own speed {} m/s", fixed(Some(row.own_speed_mps), 1)),
+        format!("target speed {} m/s", fixed(row.target_speed_mps, 1)),
+    ];
+    if let Some(class) = row.class {
+        facts.push(format!("class {}", class.name().replace('_', " ")));
+    }
+    facts.push(format!("digest {}", row.digest));
+    let sentences = case
+        .judgement
+        .verdicts
+        .iter()
+        .filter(|v| matches!(v.status, Status::Fail | Status::Warn))
+        .map(|v| {
+            let plain = || format!("{} {}", v.status.name(), v.detail);
+            format!("{}: {}", v.check.title(), v.sentence.clone().unwrap_or_else(plain))
+        })
+        .collect();
+    CaseView {
+        figure: inline(figure),
+        outcome: row.outcome.name().replace('_', " "),
+        facts: facts.join(", "),
+        sentences,
+        replay: input.card.replay_command.replace("{id}", &row.id.to_string()),
+    }
+}

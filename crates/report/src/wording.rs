@@ -1,0 +1,104 @@
+//! The sentences of the first screen: what was found, and what is not claimed.
+
+use crate::group::Group;
+use crate::input::ReportInput;
+use crate::number::{count, per_cent};
+use record::{Check, Status};
+use serde::Serialize;
+use summary::StratumSummary;
+
+/// What was found, in sentences.
+#[derive(Serialize)]
+pub(crate) struct Verdict {
+    /// `bad`, `warn`, `good` or `none`.
+    pub(crate) tone: &'static str,
+    pub(crate) sentences: Vec<String>,
+}
+
+/// One encounter, several encounters.
+pub(crate) fn encounters(n: u64) -> String {
+    format!("{} encounter{}", count(n), if n == 1 { "" } else { "s" })
+}
+
+pub(crate) fn verdict(whole: &StratumSummary) -> Verdict {
+    let (collisions, broken, n) = (whole.collision.k, whole.safety_radius.k, whole.n);
+    if n == 0 {
+        return Verdict { tone: "none", sentences: vec!["No encounter was run.".to_owned()] };
+    }
+    let mut sentences = Vec::new();
+    let tone = if collisions > 0 {
+        sentences.push(format!("{} of {} ended in a collision.", count(collisions), encounters(n)));
+        sentences.push(format!("The safety radius was broken in {}.", encounters(broken)));
+        "bad"
+    } else if broken > 0 {
+        sentences.push(format!(
+            "No collision in {}; the safety radius was broken in {}.",
+            encounters(n),
+            count(broken)
+        ));
+        "warn"
+    } else if whole.unknown > 0 {
+        sentences.push(format!("No collision was seen in {}.", encounters(n)));
+        "warn"
+    } else {
+        sentences.push(format!("No collision and no broken safety radius in {}.", encounters(n)));
+        "good"
+    };
+    if whole.unknown > 0 {
+        sentences.push(format!(
+            "The outcome of {} is unknown: the planner failed, or the run was cut short. They \
+             count as failures in every upper bound.",
+            encounters(whole.unknown)
+        ));
+    }
+    Verdict { tone, sentences }
+}
+
+/// What follows from the numbers, then what the campaign says of itself.
+pub(crate) fn not_claimed(input: &ReportInput, whole: &Group) -> Vec<String> {
+    let summary = &whole.summary;
+    let mut sentences = vec![
+        "Rates are those of encounters drawn as this campaign says, strata in the numbers that it \
+         asks for; they are not rates of any traffic at sea."
+            .to_owned(),
+    ];
+    if summary.n > 0 && summary.collision.k == 0 {
+        sentences.push(format!(
+            "No collision was seen. That does not show that there is none: at 95 % confidence up \
+             to {} of such encounters could end in one.",
+            per_cent(summary.collision.upper_95)
+        ));
+    }
+    sentences.push(format!(
+        "Bounds hold for one line at a time, not for all at once. No comparison with another \
+         planner and no pass or fail follows from this page. Verdicts on the rules rest on the \
+         thresholds of {}, where the treaty has no number.",
+        input.card.rules
+    ));
+    let silent: Vec<&str> = Check::ALL
+        .into_iter()
+        .filter(|&check| {
+            summary.n > 0 && whole.tally.check(check, Status::NotEvaluated) == summary.n
+        })
+        .map(Check::title)
+        .collect();
+    if !silent.is_empty() {
+        sentences.push(format!("Nothing is said about: {}.", silent.join(", ")));
+    }
+    if let Some(n_effective) = summary.n_effective {
+        sentences.push(format!(
+            "The encounters carry importance weights (worth {} unweighted ones); the rates here \
+             are shares of the draws and must not be read as rates of the weighted population.",
+            crate::number::significant(n_effective, 4)
+        ));
+    }
+    if whole.tally.second_judge_asked > 0 {
+        sentences.push(format!(
+            "A second judge was asked about {} and disagreed in {}.",
+            encounters(whole.tally.second_judge_asked),
+            count(whole.tally.judges_disagree)
+        ));
+    }
+    sentences.extend(input.card.not_claimed.iter().cloned());
+    sentences
+}

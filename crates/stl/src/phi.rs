@@ -1,0 +1,120 @@
+//! The formulas of section 12, as the verdicts of sections 4, 6, 8 and 9 bound them.
+//!
+//! Each is anchored at the first sample of the trace; the flag `clock` says where the clock of
+//! section 3 runs. Contract: the robustness is negative exactly where the prose says FAIL.
+//! `held` asks for the offset to have lasted, looking back, so that nothing after the clock counts.
+
+use crate::formula::{Formula, always, at_least, at_most, eventually, flag, held};
+use crate::params::Params;
+
+/// Names of the columns.
+pub mod column {
+    /// Distance of the pair, metres, of the campaign's kind.
+    pub const DISTANCE_M: &str = "distance_m";
+    /// Flag: the hulls touch.
+    pub const CONTACT: &str = "contact";
+    /// Flag: the clock runs.
+    pub const CLOCK: &str = "clock";
+    /// Flag: the clock has run out.
+    pub const CLEAR: &str = "clear";
+    /// Offset of the heading on the action side, before the first return, radians.
+    pub const ACTION_RAD: &str = "action_rad";
+    /// Signed offset of the heading, radians.
+    pub const TURN_RAD: &str = "turn_rad";
+    /// Offset to port that can be blamed (negative), radians.
+    pub const PORT_RAD: &str = "port_rad";
+    /// Share of the speed that was taken off.
+    pub const SPEED_CUT: &str = "speed_cut";
+    /// Change of the speed of a stand-on ship, either way, as a share.
+    pub const SPEED_CHANGE: &str = "speed_change";
+    /// Change of her mean heading, either way, radians.
+    pub const YAW_RAD: &str = "yaw_rad";
+    /// Flag: a small action is enough, because the passing distance shows that it was.
+    pub const SMALL_DID: &str = "small_did";
+    /// Flag: the first starboard run that counts has begun.
+    pub const STARBOARD_BEGUN: &str = "starboard_begun";
+    /// Flag: own ship had settled it before risk opened.
+    pub const SETTLED_EARLY: &str = "settled_early";
+    /// Margin of crossing ahead, metres, positive where she crosses.
+    pub const AHEAD_M: &str = "ahead_m";
+    /// Flag: risk is open.
+    pub const OPEN: &str = "open";
+    /// Flag: a port turn that Rule 17(c) looks at is under way.
+    pub const PORT_TURN: &str = "port_turn";
+    /// `|alpha|`, radians.
+    pub const ALPHA_RAD: &str = "alpha_rad";
+    /// Flag: the ships close.
+    pub const CLOSING: &str = "closing";
+    /// Flag: a turn toward the overtaken ship's track ended here.
+    pub const TURNED_IN: &str = "turned_in";
+    /// Turn toward a target abeam or abaft the beam, radians.
+    pub const TOWARD_RAD: &str = "toward_rad";
+}
+use column as c;
+
+/// Rules 8(d) and 16: never under `limit_m`, never in contact.
+pub fn safe(limit_m: f64, p: &Params) -> Formula {
+    let clear_of = at_least(c::DISTANCE_M, limit_m, p.scale.distance_m);
+    always(clear_of.and(flag(c::CONTACT).negated()))
+}
+
+/// Rule 8(b): an alteration large enough, or a small one that did.
+pub fn apparent(turn_rad: f64, hold: usize, p: &Params) -> Formula {
+    let reaches = |turn_rad: f64, speed: f64| {
+        let turn = at_least(c::ACTION_RAD, turn_rad, p.scale.angle_rad);
+        let slower = at_least(c::SPEED_CUT, speed, p.scale.speed);
+        eventually(flag(c::CLOCK).and(held(turn, hold).or(held(slower, hold))))
+    };
+    let small = reaches(p.turn_detectable_rad, p.speed_detectable);
+    reaches(turn_rad, p.speed_action).or(flag(c::SMALL_DID).and(small))
+}
+
+/// Rule 14: to starboard, and not to port before.
+pub fn head_on(hold: usize, p: &Params) -> Formula {
+    let port = at_most(c::PORT_RAD, -p.turn_action_rad, p.scale.angle_rad);
+    let port = flag(c::CLOCK).and(held(port, hold));
+    let starboard = at_least(c::TURN_RAD, p.turn_action_rad, p.scale.angle_rad);
+    let turns = eventually(flag(c::CLOCK).and(held(starboard, hold)));
+    let first = port.negated().until(flag(c::STARBOARD_BEGUN).or(flag(c::CLEAR)));
+    flag(c::SETTLED_EARLY).or(first.and(turns))
+}
+
+/// Rule 15: not across her bow until clear.
+pub fn crossing(p: &Params) -> Formula {
+    let ahead = at_least(c::AHEAD_M, 0.0, p.scale.distance_m);
+    let across = || flag(c::CLOCK).and(flag(c::OPEN)).and(ahead.clone()).negated();
+    across().until(flag(c::CLEAR).and(across()))
+}
+
+/// Rule 13(a) and (d): keeps clear of the ship she overtakes until past and clear.
+pub fn overtaking(p: &Params) -> Formula {
+    let across = at_least(c::AHEAD_M, 0.0, p.scale.distance_m);
+    let near = at_least(c::DISTANCE_M, p.minimum_m, p.scale.distance_m).negated();
+    let before_bow = at_least(c::ALPHA_RAD, p.overtaken_bow_rad, p.scale.angle_rad).negated();
+    let too_close = flag(c::CLOSING).and(near).and(before_bow);
+    let wrong = across.or(too_close).or(flag(c::TURNED_IN));
+    safe(p.minimum_m, p).and(always(flag(c::CLOCK).implies(wrong.negated())))
+}
+
+/// Rule 17(a)(i): holds course and speed.
+pub fn stand_on(hold: usize, p: &Params) -> Formula {
+    let turned = at_least(c::YAW_RAD, p.turn_action_rad, p.scale.angle_rad);
+    let changed = at_least(c::SPEED_CHANGE, p.speed_action, p.scale.speed);
+    let acts = held(turned, hold).or(held(changed, hold));
+    always(flag(c::CLOCK).implies(acts.negated()))
+}
+
+/// Rule 17(c): not to port for a ship on the port side.
+pub fn not_to_port(hold: usize, p: &Params) -> Formula {
+    let port = at_most(c::TURN_RAD, -p.turn_action_rad, p.scale.angle_rad);
+    let turning = flag(c::CLOCK).and(flag(c::PORT_TURN));
+    always(turning.implies(held(port, hold).negated()))
+}
+
+/// Rule 19(d): not to port for a ship forward of the beam, not toward one abeam or abaft it.
+pub fn by_radar(hold: usize, p: &Params) -> Formula {
+    let port = at_most(c::TURN_RAD, -p.turn_action_rad, p.scale.angle_rad);
+    let port = flag(c::PORT_TURN).and(held(port, hold));
+    let toward = held(at_least(c::TOWARD_RAD, p.turn_action_rad, p.scale.angle_rad), hold);
+    always(flag(c::CLOCK).implies(port.or(toward).negated()))
+}

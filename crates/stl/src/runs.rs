@@ -1,0 +1,221 @@
+//! Runs: the single alterations of course and of speed that a stretch of track is made of
+//! (rules specification, section 5).
+
+use crate::params::{Params, RunParams};
+use crate::risk::samples_of;
+
+/// One alteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// First sample.
+    pub start: usize,
+    /// Last sample.
+    pub end: usize,
+    /// Net change: radians (positive to starboard) or m/s (positive ahead).
+    pub change: f64,
+}
+
+/// Runs of the heading. `heading_rad` is unwrapped; `yaw_rate_on_radps` is `q_on`.
+pub fn heading_runs(
+    heading_rad: &[f64],
+    speed_mps: &[f64],
+    yaw_rate_on_radps: f64,
+    params: &Params,
+    sample_s: f64,
+) -> Vec<Run> {
+    if extent(heading_rad) < params.turn_detectable_rad || heading_rad.len() < 2 {
+        return Vec::new();
+    }
+    let smooth = smoothed(heading_rad, params.run.smoothing_s, sample_s);
+    let rate = derivative(&smooth, sample_s);
+    let fast = fast_runs(&rate, speed_mps, yaw_rate_on_radps, &params.run, sample_s);
+    let gap = |a: usize, b: usize| (b - a) as f64 * sample_s;
+    let mut merged: Vec<Run> = Vec::new();
+    for run in fast {
+        let (start, end, sign) = run;
+        let change = heading_rad[end] - heading_rad[start];
+        match merged.last_mut() {
+            Some(last) if last.change * sign > 0.0 && gap(last.end, start) < params.run.gap_s => {
+                last.end = end;
+                last.change = heading_rad[end] - heading_rad[last.start];
+            }
+            _ if change * sign > 0.0 => merged.push(Run { start, end, change }),
+            _ => {}
+        }
+    }
+    merged.retain(|run| run.change.abs() >= params.turn_detectable_rad);
+    with_slow_runs(merged, &smooth, heading_rad, params, sample_s)
+}
+
+/// Runs of the speed: contiguous samples at which it changes by `acceleration_mps2` or more, and
+/// by a detectable share in all.
+pub fn speed_runs(speed_mps: &[f64], params: &Params, sample_s: f64) -> Vec<Run> {
+    let rate = derivative(speed_mps, sample_s);
+    let mut runs: Vec<Run> = Vec::new();
+    let mut k = 0;
+    while k < rate.len() {
+        if rate[k].abs() < params.run.acceleration_mps2 {
+            k += 1;
+            continue;
+        }
+        let start = k;
+        while k + 1 < rate.len()
+            && rate[k + 1].abs() >= params.run.acceleration_mps2
+            && rate[k + 1] * rate[start] > 0.0
+        {
+            k += 1;
+        }
+        let change = speed_mps[k] - speed_mps[start];
+        if change.abs() >= params.speed_detectable * speed_mps[start].abs() && k > start {
+            runs.push(Run { start, end: k, change });
+        }
+        k += 1;
+    }
+    runs
+}
+
+/// First sample, last sample and side of every stretch that is turned at `q_on` or more.
+fn fast_runs(
+    rate: &[f64],
+    speed_mps: &[f64],
+    on_radps: f64,
+    rule: &RunParams,
+    sample_s: f64,
+) -> Vec<(usize, usize, f64)> {
+    let quiet = samples_of(rule.quiet_s, sample_s);
+    let last = rate.len() - 1;
+    let mut runs = Vec::new();
+    let mut k = 0;
+    while k <= last {
+        if rate[k].abs() < on_radps || speed_mps[k] < rule.moving_mps {
+            k += 1;
+            continue;
+        }
+        let (start, sign) = (k, rate[k].signum());
+        let mut quiet_for = 0;
+        let mut end = last;
+        for (at, (q, speed)) in rate.iter().zip(speed_mps).enumerate().skip(start + 1) {
+            if q * sign < 0.0 || *speed < rule.moving_mps {
+                end = at - quiet_for;
+                break;
+            }
+            quiet_for = if q.abs() < on_radps / 2.0 { quiet_for + 1 } else { 0 };
+            if quiet_for > quiet {
+                end = at - quiet;
+                break;
+            }
+        }
+        runs.push((start, end, sign));
+        k = end.max(start) + 1;
+    }
+    runs
+}
+
+/// Adds the turns that are large enough but too slow to reach `q_on`, between the others.
+fn with_slow_runs(
+    fast: Vec<Run>,
+    smooth: &[f64],
+    heading_rad: &[f64],
+    params: &Params,
+    sample_s: f64,
+) -> Vec<Run> {
+    let mut all = Vec::with_capacity(fast.len());
+    let mut from = 0;
+    for run in &fast {
+        slow_runs(smooth, heading_rad, from, run.start, params, sample_s, &mut all);
+        all.push(*run);
+        from = run.end;
+    }
+    slow_runs(smooth, heading_rad, from, smooth.len() - 1, params, sample_s, &mut all);
+    all
+}
+
+fn slow_runs(
+    smooth: &[f64],
+    heading_rad: &[f64],
+    from: usize,
+    to: usize,
+    params: &Params,
+    sample_s: f64,
+    all: &mut Vec<Run>,
+) {
+    let enough_rad = params.turn_action_rad;
+    if to <= from || extent(&smooth[from..=to]) < enough_rad {
+        return;
+    }
+    let window = samples_of(params.run.slow_s, sample_s);
+    let patience = samples_of(params.run.gap_s, sample_s);
+    let mut begin = from;
+    let mut k = from + 1;
+    while k <= to {
+        let first = begin.max(k.saturating_sub(window));
+        // The latest sample that is far enough away: the turn is as short as it can be.
+        let Some(start) = (first..k).rev().find(|i| (smooth[k] - smooth[*i]).abs() >= enough_rad)
+        else {
+            k += 1;
+            continue;
+        };
+        let sign = (smooth[k] - smooth[start]).signum();
+        let mut end = k;
+        for at in k + 1..=to {
+            if (smooth[at] - smooth[end]) * sign > 0.0 {
+                end = at;
+            } else if at - end >= patience {
+                break;
+            }
+        }
+        all.push(Run { start, end, change: heading_rad[end] - heading_rad[start] });
+        begin = end;
+        k = end + 1;
+    }
+}
+
+/// Gaussian mean, the kernel cut at three standard deviations and at the ends of the track.
+fn smoothed(values: &[f64], deviation_s: f64, sample_s: f64) -> Vec<f64> {
+    let reach = (3.0 * deviation_s / sample_s).ceil();
+    let reach = if reach > 0.0 { reach as usize } else { 0 };
+    let weight = |i: usize| {
+        let z = i as f64 * sample_s / deviation_s;
+        libm::exp(-0.5 * z * z)
+    };
+    let kernel: Vec<f64> = (0..=reach).map(weight).collect();
+    let total = kernel[0] + 2.0 * kernel[1..].iter().sum::<f64>();
+    let mut smooth = vec![0.0; values.len()];
+    for (k, out) in smooth.iter_mut().enumerate() {
+        let (mut sum, mut weights) = (kernel[0] * values[k], total);
+        if k >= reach && k + reach < values.len() {
+            for (i, w) in kernel.iter().enumerate().skip(1) {
+                sum += w * (values[k - i] + values[k + i]);
+            }
+        } else {
+            weights = kernel[0];
+            for (i, w) in kernel.iter().enumerate().skip(1) {
+                let behind = k.checked_sub(i).map(|at| values[at]);
+                for value in [behind, values.get(k + i).copied()].into_iter().flatten() {
+                    sum += w * value;
+                    weights += w;
+                }
+            }
+        }
+        *out = sum / weights;
+    }
+    smooth
+}
+
+/// Central difference, one-sided at the ends.
+fn derivative(values: &[f64], sample_s: f64) -> Vec<f64> {
+    let last = values.len().saturating_sub(1);
+    (0..values.len())
+        .map(|k| {
+            let (a, b) = (k.saturating_sub(1), (k + 1).min(last));
+            if b > a { (values[b] - values[a]) / ((b - a) as f64 * sample_s) } else { 0.0 }
+        })
+        .collect()
+}
+
+fn extent(values: &[f64]) -> f64 {
+    let (low, high) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
+    high - low
+}

@@ -1,0 +1,107 @@
+//! The columns of Rule 17: what binds the ship that stands on, and until when.
+
+use crate::action::Action;
+use crate::checks::{Case, Claim};
+use crate::life::Duty;
+use crate::phi::{self, column as c};
+use crate::risk::samples_of;
+use crate::runs::Run;
+use crate::signals::ABAFT_THE_BEAM_RAD;
+
+impl Case<'_> {
+    /// Rule 17(a)(i), from the entry of stage 2 until she may or shall act.
+    pub(crate) fn stand_on(&self, duty: &Duty) -> Claim {
+        let p = self.params;
+        let Some(from) = duty.stages[0] else { return Claim::NotApplicable };
+        let ends = [duty.may_act, duty.shall_act].into_iter().flatten().min();
+        let to = ends.unwrap_or(duty.end + 1).min(duty.end + 1);
+        let excused = self.excused();
+        let bound = |k: usize| (from..to).contains(&k) && !excused[k];
+        if !(from..to).any(bound) {
+            return Claim::NotApplicable;
+        }
+        let speed_0 = self.deviation.speed_mps[from];
+        let change_0 = self.deviation.speed_change_mps[from];
+        let change = |v: &f64| if speed_0 > 0.0 { (v - change_0).abs() / speed_0 } else { 0.0 };
+        let changes = self.deviation.speed_change_mps.iter().map(change).collect();
+        let signals = self
+            .signals_of(duty)
+            .with(c::CLOCK, self.flags(bound))
+            .with(c::YAW_RAD, self.mean_yaw_rad(from, to))
+            .with(c::SPEED_CHANGE, changes);
+        let complete = duty.complete || ends.is_some();
+        Claim::Formula { formula: phi::stand_on(self.hold, p), signals, complete }
+    }
+
+    /// How far the centred mean of the heading lies from the mean before sample `from`. It stays
+    /// inside the samples before `to`: it must not see what she did once she was free to act.
+    fn mean_yaw_rad(&self, from: usize, to: usize) -> Vec<f64> {
+        let heading_rad = &self.deviation.heading_rad;
+        let mut sum = 0.0;
+        let mut sums = vec![0.0];
+        sums.extend(heading_rad.iter().map(|heading| {
+            sum += heading;
+            sum
+        }));
+        let mean = |a: usize, b: usize| (sums[b] - sums[a]) / (b - a) as f64;
+        let span = samples_of(self.params.stand_on_mean_s, self.trace.sample_s);
+        let before = mean(from.saturating_sub(span), from.max(1));
+        let yaw = |k: usize| {
+            let (a, b) = (k.saturating_sub(span / 2), (k + span / 2 + 1).min(to));
+            (mean(a, b) - before).abs()
+        };
+        let bound = |k: usize| if (from..to).contains(&k) { yaw(k) } else { 0.0 };
+        (0..heading_rad.len()).map(bound).collect()
+    }
+
+    /// Whether the latest run began, or the present sample lies, where she gives way to another
+    /// ship: that duty forces what she does.
+    fn excused(&self) -> Vec<bool> {
+        let mut excused = vec![false; self.pair().samples()];
+        for (_, life) in self.lives.iter().enumerate().filter(|(i, _)| *i != self.target) {
+            let Some(duty) = life.in_sight.as_ref().filter(|duty| duty.gives_way()) else {
+                continue;
+            };
+            let owed = |k: usize| (duty.onset..=duty.end).contains(&k);
+            let runs = self.deviation.turns.iter().chain(&self.deviation.speed_changes);
+            let mut starts: Vec<usize> = runs.map(|run| run.start).collect();
+            starts.sort_unstable();
+            for (k, excused) in excused.iter_mut().enumerate() {
+                let latest = starts.iter().rfind(|start| **start <= k);
+                *excused |= owed(k) || latest.is_some_and(|start| owed(*start));
+            }
+        }
+        excused
+    }
+
+    /// Rule 17(c): a port turn begun in stage 3 for a ship on the port side.
+    pub(crate) fn not_to_port(&self, duty: &Duty, action: &Action) -> Claim {
+        let p = self.params;
+        let pair = self.pair();
+        let Some(stage_3) = duty.stages[1] else { return Claim::NotApplicable };
+        let stage_4 = duty.stages[2].filter(|_| !p.port_turn_fails_in_stage_4);
+        let last = stage_4.unwrap_or(duty.end + 1);
+        let on_port = |k: usize| {
+            let beta = pair.beta_rad(k);
+            beta < 0.0 && beta > -ABAFT_THE_BEAM_RAD
+        };
+        if !(stage_3..last).any(on_port) {
+            return Claim::NotApplicable;
+        }
+        let blamed = |run: &Run| {
+            run.change < 0.0 && (stage_3..last).contains(&run.start) && on_port(run.start)
+        };
+        let guilty: Vec<(usize, bool)> =
+            action.turns.iter().map(|run| (run.start, blamed(run))).collect();
+        let turning = |k: usize| {
+            guilty.iter().rfind(|(start, _)| *start <= k).is_some_and(|(_, blamed)| *blamed)
+        };
+        let signals = self
+            .signals_of(duty)
+            .with(c::CLOCK, self.flags(|k| (stage_3..=duty.end).contains(&k)))
+            .with(c::PORT_TURN, self.flags(turning))
+            .with(c::TURN_RAD, action.turn_rad.clone());
+        let formula = phi::not_to_port(self.hold, p);
+        Claim::Formula { formula, signals, complete: duty.complete }
+    }
+}

@@ -1,0 +1,103 @@
+//! One encounter for each reading of the specification that another reading would decide
+//! otherwise.
+
+mod common;
+
+use common::{Script, USV, run};
+use record::{Check, Trace};
+use stl::life::lives;
+use stl::{Finding, Robustness, judge};
+
+fn own() -> Script {
+    Script::straight(0.0, 0.0, 0.0, 5.0)
+}
+
+fn ahead() -> Script {
+    Script::straight(1500.0, 0.0, 180.0, 5.0)
+}
+
+/// Stage 3 begins at 52 s.
+fn from_port() -> Script {
+    Script::straight(750.0, -750.0, 90.0, 5.0)
+}
+
+fn finding(trace: &Trace, check: Check) -> Robustness {
+    judge(trace, &USV)[check as usize]
+}
+
+#[test]
+fn port_after_starboard_is_not_port_before_starboard() {
+    let trace = run(&own().turn(20, 20.0).turn(60, -40.0), &[ahead()], 300);
+    assert_eq!(finding(&trace, Check::R14).status, Finding::Holds);
+}
+
+#[test]
+fn a_small_action_suffices_only_if_it_added_distance() {
+    // Planned to pass at 164 m hull to hull, with the target a little to starboard.
+    let aside = || Script::straight(1500.0, 170.0, 180.0, 5.0);
+    let toward = run(&own().turn(20, 5.0), &[aside()], 300);
+    assert_eq!(finding(&toward, Check::Safe).status, Finding::Holds);
+    assert_eq!(finding(&toward, Check::R8Magnitude).status, Finding::Violated);
+    // Slowing down by 4 % neither adds distance here nor excuses the turn.
+    let slower = run(&own().turn(20, 5.0).change_speed(20, -0.2), &[aside()], 320);
+    assert_eq!(finding(&slower, Check::R8Magnitude).status, Finding::Violated);
+    let away = run(&own().turn(20, -5.0), &[aside()], 300);
+    assert_eq!(finding(&away, Check::R8Magnitude).status, Finding::Holds);
+}
+
+#[test]
+fn a_step_back_while_still_in_danger_is_no_return() {
+    // 8 degrees, 5 back and 9 more make 12; too late to pass well clear.
+    let hesitant = own().turn(60, 8.0).turn(80, -5.0).turn(100, 9.0);
+    let trace = run(&hesitant, &[ahead()], 300);
+    assert_eq!(finding(&trace, Check::Safe).status, Finding::Violated);
+    let rho = finding(&trace, Check::R8Magnitude).rho.unwrap();
+    assert!((rho - 0.2).abs() < 1e-6, "{rho}");
+}
+
+#[test]
+fn the_mean_heading_of_a_stand_on_ship_does_not_see_what_came_later() {
+    let mut free = own();
+    free.turns.push((52, 10.0, 9));
+    let trace = run(&free, &[from_port()], 300);
+    let duty = lives(&trace, &USV).remove(0).in_sight.unwrap();
+    assert_eq!(duty.stages[..2], [Some(0), Some(52)]);
+    assert_eq!(finding(&trace, Check::R17Hold).status, Finding::Holds);
+    assert_eq!(duty.may_act, Some(52));
+    // Where risk opens inside stage 3 she must first have seen for 5 s that nothing is done.
+    let near = Script::straight(400.0, -400.0, 90.0, 5.0);
+    let late = run(&own(), &[near], 200);
+    assert_eq!(lives(&late, &USV)[0].in_sight.as_ref().unwrap().may_act, Some(5));
+}
+
+#[test]
+fn turning_in_on_an_overtaken_ship_is_violated_though_she_keeps_clear() {
+    let slow = || Script::straight(400.0, 0.0, 0.0, 2.0);
+    let fast = || Script { speed_mps: 6.0, ..own() }.turn(10, 25.0).turn(74, -25.0);
+    let steady = run(&fast(), &[slow()], 300);
+    assert_eq!(finding(&steady, Check::R13).status, Finding::Holds);
+    let swerve = run(&fast().turn(101, -40.0).turn(118, 40.0), &[slow()], 300);
+    assert_eq!(finding(&swerve, Check::Safe).status, Finding::Holds);
+    assert_eq!(finding(&swerve, Check::R13).status, Finding::Violated);
+}
+
+#[test]
+fn fixed_ranges_bind_all_but_the_overtaking_roles() {
+    let onset = |own: Script, target: Script| {
+        let trace = run(&own, &[target], 200);
+        lives(&trace, &USV)[0].in_sight.as_ref().map(|duty| duty.onset)
+    };
+    let speed = |speed_mps: f64| Script { speed_mps, ..own() };
+    // Closing at 20 m/s from 3000 m: under 1900 m from 56 s.
+    assert_eq!(onset(speed(10.0), Script::straight(3000.0, 0.0, 180.0, 10.0)), Some(56));
+    // Overtaking at 11 m/s: 190 s are 2090 m.
+    assert_eq!(onset(speed(12.0), Script::straight(2050.0, 0.0, 0.0, 1.0)), Some(0));
+}
+
+#[test]
+fn exactly_at_the_limit_is_undecided() {
+    let mut trace = run(&own().turn(20, 30.0), &[ahead()], 300);
+    trace.pairs[0].minimum.hull_m = USV.minimum_m;
+    let found = finding(&trace, Check::Safe);
+    assert_eq!((found.status, found.rho), (Finding::Undecided, Some(0.0)));
+}

@@ -1,0 +1,172 @@
+//! `summary.json`, field by field.
+
+use record::{Check, EncounterClass, Outcome, Seed, Status};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Version of the form of `summary.json`.
+pub(crate) const SCHEMA: u32 = 1;
+
+/// What stands above the strata.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SummaryHead {
+    /// Name of the campaign.
+    pub campaign: String,
+    /// Name of the planner, options included.
+    pub planner: String,
+    /// Seed of the campaign.
+    pub seed: Seed,
+    /// BLAKE3 over the run digests, hexadecimal.
+    pub root_digest: String,
+}
+
+/// `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Summary {
+    /// Version of this form.
+    pub schema: u32,
+    /// Name of the campaign.
+    pub campaign: String,
+    /// Name of the planner, options included.
+    pub planner: String,
+    /// Seed of the campaign.
+    pub seed: Seed,
+    /// Rows.
+    pub encounters: u64,
+    /// BLAKE3 over the run digests in order (stratum, j), hexadecimal.
+    pub root_digest: String,
+    /// One entry for each stratum, in the order of the campaign.
+    pub strata: Vec<StratumSummary>,
+}
+
+impl Summary {
+    /// The text of `summary.json`.
+    pub fn to_json(&self) -> String {
+        let mut text =
+            serde_json::to_string_pretty(self).expect("a summary has only string-like keys");
+        text.push('\n');
+        text
+    }
+
+    /// All rows of a planner whose outcome is unknown.
+    pub fn unknown(&self) -> u64 {
+        self.strata.iter().map(|stratum| stratum.unknown).sum()
+    }
+}
+
+/// One stratum.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StratumSummary {
+    /// Name, as in the campaign file.
+    pub name: String,
+    /// Rows; every rate has them all below the line.
+    pub n: u64,
+    /// Draws of the generator, rejected ones included.
+    pub generated: u64,
+    /// Draws that it rejected.
+    pub rejected: u64,
+    /// Own ship hit a target.
+    pub collision: BoundedRate,
+    /// The safety radius was broken.
+    pub safety_radius: BoundedRate,
+    /// Planner failures and runs cut before CPA.
+    pub unknown: u64,
+    /// Status of the turn direction check, runs.
+    pub turn_direction: BTreeMap<Status, u64>,
+    /// From the onset of risk to the first detectable alteration.
+    pub reaction_time_s: TimeSummary,
+    /// From the onset of risk to the first readily apparent alteration.
+    pub apparent_manoeuvre_s: TimeSummary,
+    /// Smallest hull-to-hull distance.
+    pub min_cpa_m: CpaSummary,
+    /// How the runs ended.
+    pub outcomes: BTreeMap<Outcome, u64>,
+    /// Class found by the judge; runs in which risk never opened are in none.
+    pub classes: BTreeMap<EncounterClass, u64>,
+    /// Status of every check, runs.
+    pub checks: BTreeMap<Check, BTreeMap<Status, u64>>,
+    /// Collisions without and with avoiding.
+    pub collision_pairs: PairedRates,
+    /// Breaches of the safety radius without and with avoiding.
+    pub safety_radius_pairs: PairedRates,
+    /// Runs that no manoeuvre of own ship could have cleared; absent where none was asked for.
+    pub unavoidable: Option<u64>,
+    /// What the runs are worth, (sum w)^2 / sum w^2; absent while all weights are 1. Where it is
+    /// present the rates above are shares of the draws, not of the population.
+    pub n_effective: Option<f64>,
+}
+
+/// k events in n runs with exact two-sided 95 % bounds (Clopper-Pearson).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoundedRate {
+    /// Events seen.
+    pub k: u64,
+    /// Runs, unknown ones included.
+    pub n: u64,
+    /// k / n; absent without runs.
+    pub rate: Option<f64>,
+    /// Lower bound: unknown runs count as none.
+    pub lower_95: f64,
+    /// Upper bound: unknown runs count as events.
+    pub upper_95: f64,
+}
+
+/// A distribution of times, seconds. Runs that never acted count as infinite.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimeSummary {
+    /// Runs in which risk opened.
+    pub n: u64,
+    /// Half of the runs acted by then; null where that is never.
+    pub median: Option<f64>,
+    /// 95 in 100 did; null where that is never.
+    pub p95: Option<f64>,
+    /// All did; null where one never did.
+    pub max: Option<f64>,
+    /// Runs that never acted, or had not when they were cut short.
+    pub censored: u64,
+    /// Runs that acted before risk opened; they count as 0 s.
+    pub early: u64,
+}
+
+/// Quantiles of the smallest hull-to-hull distance, metres, to 0.1 m. Runs in which it is unknown
+/// rank below all others; null where the quantile falls there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CpaSummary {
+    /// First percentile.
+    pub p01: Option<f64>,
+    /// Fifth percentile.
+    pub p05: Option<f64>,
+    /// Median.
+    pub median: Option<f64>,
+}
+
+/// What avoiding changed, with exact two-sided 95 % bounds of the risk ratio.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairedRates {
+    /// Events of the nominal track.
+    pub nominal: u64,
+    /// Events of the nominal track that avoiding removed.
+    pub removed: u64,
+    /// Events that it left.
+    pub left: u64,
+    /// Events that it caused.
+    pub caused: u64,
+    /// Neither.
+    pub neither: u64,
+    /// Runs of unknown outcome.
+    pub unknown: u64,
+    /// Runs without a nominal track; in none of the others.
+    pub without_nominal: u64,
+    /// Events with avoiding over events without; null where there was none without.
+    pub risk_ratio: Option<f64>,
+    /// Lower bound: unknown runs count as no event.
+    pub lower_95: Option<f64>,
+    /// Upper bound: unknown runs count as events.
+    pub upper_95: Option<f64>,
+}
