@@ -1,2 +1,24 @@
-//! Campaign file, pipeline, parts, resume and replay
+//! From a campaign file to rows: the file, the plan, the engine process and its supervisor, parts
+//! on disk, replay.
+//!
+//! Read [`pipeline`] first: it calls every stage in order.
 #![forbid(unsafe_code)]
+
+pub mod cases;
+pub mod engine;
+pub mod error;
+pub mod folder;
+pub mod inflight;
+pub mod part;
+pub mod pipeline;
+pub mod plan;
+pub mod row;
+pub mod spec;
+pub mod supervisor;
+pub mod worker;
+
+pub use error::Error;
+pub use folder::Folder;
+pub use pipeline::{Finished, RowSink, finish, run_parts};
+pub use plan::{Plan, Source};
+pub use spec::{CampaignFile, Overrides};

@@ -1,2 +1,39 @@
-//! The command line
+//! The command line, as a library of one function: [`main_with`].
+//!
+//! Somebody outside this repository adds planners of their own with a `main` of a few lines:
+//!
+//! ```no_run
+//! fn main() -> std::process::ExitCode {
+//!     seatrial::main_with(planners::registry())
+//! }
+//! ```
 #![forbid(unsafe_code)]
+
+mod build;
+mod cli;
+mod commands;
+mod embedded;
+mod exit;
+mod files;
+mod headline;
+mod manifest;
+mod progress;
+mod timing;
+
+use clap::Parser;
+use planner_api::Registry;
+use std::process::ExitCode;
+
+/// Runs the command line with these planners.
+#[must_use]
+pub fn main_with(registry: Registry) -> ExitCode {
+    let cli = match cli::Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // help and version are no errors; a reader that closed the pipe is none either
+            drop(error.print());
+            return ExitCode::from(if error.use_stderr() { exit::USAGE } else { exit::DONE });
+        }
+    };
+    exit::code(commands::run(cli.command, registry))
+}

@@ -1,2 +1,5 @@
-//! The command line.
-fn main() {}
+//! The command line of Seatrial with the planners of this repository.
+
+fn main() -> std::process::ExitCode {
+    seatrial::main_with(planners::registry())
+}

@@ -1,2 +1,24 @@
-//! World stepping, vessel dynamics, hull contact and sensing: an encounter becomes a trace
+//! World stepping, vessel dynamics, hull contact and sensing: an encounter becomes a trace.
+//!
+//! Start at [`world`]: it holds the loop. One logical clock (`step * step_s`, never accumulated);
+//! all ships decide on one snapshot, then all move; the judge sees nothing but the [`record::Trace`].
 #![forbid(unsafe_code)]
+
+pub mod approach;
+pub mod check;
+pub mod contact;
+pub mod ending;
+pub mod hull;
+pub mod intent;
+pub mod nominal;
+pub mod pose;
+pub mod recorder;
+pub mod sensing;
+pub mod ship;
+pub mod vessel;
+pub mod world;
+
+pub use check::{SetupError, check};
+pub use nominal::nominal;
+pub use vessel::{Limits, known_models, limits};
+pub use world::{Scratch, run};

@@ -1,0 +1,234 @@
+//! The output folder of one planner's result, and the states it can be in.
+//!
+//! Empty: used. Partial: it holds `state/` with the plan and the parts so far, and needs
+//! `--resume`. Finished: it holds `manifest.json`. Anything else is not ours and is left alone.
+
+use crate::{Error, Plan, part};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Everything a finished folder may hold, and so everything that `--force` may remove.
+const OURS: [&str; 8] = [
+    "state",
+    "report.html",
+    "runs.parquet",
+    "summary.json",
+    "figures",
+    "manifest.json",
+    "timing.json",
+    "replay",
+];
+
+/// An output folder that is ours to write to.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+    plan_hash: String,
+}
+
+/// What opening a folder found.
+#[derive(Debug)]
+pub enum Opened {
+    /// Ready to run; some parts may be there already.
+    Ready(Folder),
+    /// The very same campaign was finished here.
+    Finished(Folder),
+}
+
+impl Folder {
+    /// Opens a folder for a plan.
+    ///
+    /// # Errors
+    /// The folder holds another plan (the message names what differs), is partial without
+    /// `resume`, or is not ours.
+    pub fn open(path: &Path, plan: &Plan, resume: bool, force: bool) -> Result<Opened, Error> {
+        let this = Self { path: path.to_owned(), plan_hash: plan.hash()? };
+        let shown = path.display();
+        if path.exists() && !path.is_dir() {
+            return Err(Error::input(format!("{shown} is a file; --out wants a folder")));
+        }
+        let entries = this.entries()?;
+        if entries.is_empty() {
+            this.begin(plan)?;
+            return Ok(Opened::Ready(this));
+        }
+        let stranger = entries.iter().find(|name| !OURS.contains(&name.as_str()));
+        let there = this.stored_plan()?;
+        let (Some(there), None) = (there, stranger) else {
+            let what = stranger.map_or("no manifest", String::as_str);
+            return Err(Error::input(format!(
+                "{shown} is not empty and was not made by this tool (it holds {what}); \
+                 name an empty folder with --out"
+            )));
+        };
+        if force {
+            this.clear()?;
+            this.begin(plan)?;
+            return Ok(Opened::Ready(this));
+        }
+        let differs = differences(&there, &plan.json()?);
+        if !differs.is_empty() {
+            return Err(Error::input(format!(
+                "{shown} holds another result: {}; name another folder with --out, or \
+                 replace it with --force",
+                differs.join("; ")
+            )));
+        }
+        if path.join("manifest.json").exists() {
+            return Ok(Opened::Finished(this));
+        }
+        if !resume {
+            return Err(Error::input(format!(
+                "{shown} holds a part of this campaign; go on with --resume, or start again \
+                 with --force"
+            )));
+        }
+        Ok(Opened::Ready(this))
+    }
+
+    /// A folder that holds a plan already, for the engine and for replay.
+    pub fn existing(path: &Path) -> Result<(Self, Plan), Error> {
+        let this = Self { path: path.to_owned(), plan_hash: String::new() };
+        let json = this.stored_plan()?.ok_or_else(|| {
+            Error::input(format!("{} holds no result of this tool", path.display()))
+        })?;
+        let plan: Plan = serde_json::from_value(json).map_err(|e| {
+            Error::input(format!("{} was made by another version: {e}", path.display()))
+        })?;
+        let plan_hash = plan.hash()?;
+        Ok((Self { plan_hash, ..this }, plan))
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Hash of the plan.
+    pub fn plan_hash(&self) -> &str {
+        &self.plan_hash
+    }
+
+    /// Where parts are.
+    pub fn parts(&self) -> PathBuf {
+        self.path.join("state").join("parts")
+    }
+
+    /// Where encounters that took the process with them are listed.
+    pub fn lost(&self) -> PathBuf {
+        self.path.join("state").join("lost.jsonl")
+    }
+
+    /// Where the slots of the workers are.
+    pub fn inflight(&self) -> PathBuf {
+        self.path.join("state").join("inflight")
+    }
+
+    /// Removes what only a partial result needs.
+    pub fn end(&self) -> Result<(), Error> {
+        let state = self.path.join("state");
+        fs::remove_dir_all(&state).map_err(Error::io("remove", &state))
+    }
+
+    fn entries(&self) -> Result<Vec<String>, Error> {
+        if !self.path.exists() {
+            return Ok(Vec::new());
+        }
+        let read = Error::io("read", &self.path);
+        let list: Result<Vec<_>, _> = match fs::read_dir(&self.path) {
+            Ok(list) => list.collect(),
+            Err(e) => return Err(read(e)),
+        };
+        let mut names: Vec<String> = list
+            .map_err(read)?
+            .iter()
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        Ok(names)
+    }
+
+    fn stored_plan(&self) -> Result<Option<Value>, Error> {
+        let partial = self.path.join("state").join("plan.json");
+        let finished = self.path.join("manifest.json");
+        let (path, key) = if partial.exists() {
+            (partial, None)
+        } else if finished.exists() {
+            (finished, Some("plan"))
+        } else {
+            return Ok(None);
+        };
+        let text = fs::read_to_string(&path).map_err(Error::io("read", &path))?;
+        let json: Value = serde_json::from_str(&text)
+            .map_err(|e| Error::input(format!("{} is damaged: {e}", path.display())))?;
+        Ok(match key {
+            None => Some(json),
+            Some(key) => json.get(key).cloned(),
+        })
+    }
+
+    fn begin(&self, plan: &Plan) -> Result<(), Error> {
+        let parts = self.parts();
+        fs::create_dir_all(&parts).map_err(Error::io("make", &parts))?;
+        let path = self.path.join("state").join("plan.json");
+        let text = format!("{:#}\n", plan.json()?);
+        part::write_whole(&path, text.as_bytes()).map_err(Error::io("write", &path))
+    }
+
+    fn clear(&self) -> Result<(), Error> {
+        for name in OURS {
+            let path = self.path.join(name);
+            if path.is_dir() {
+                fs::remove_dir_all(&path).map_err(Error::io("remove", &path))?;
+            } else if path.exists() {
+                fs::remove_file(&path).map_err(Error::io("remove", &path))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What differs between two plans, as at most four `key: there, here` texts. The commit is no
+/// difference while engine and planners are the same.
+fn differences(there: &Value, here: &Value) -> Vec<String> {
+    const SHOWN: usize = 4;
+    let mut found = Vec::new();
+    compare("", there, here, &mut found);
+    found.retain(|text: &String| !text.starts_with("build.git_"));
+    if found.len() > SHOWN {
+        let more = found.len() - SHOWN;
+        found.truncate(SHOWN);
+        found.push(format!("and {more} more"));
+    }
+    found
+}
+
+fn compare(key: &str, there: &Value, here: &Value, found: &mut Vec<String>) {
+    match (there, here) {
+        (Value::Object(a), Value::Object(b)) => {
+            let mut keys: Vec<&String> = a.keys().chain(b.keys()).collect();
+            keys.sort();
+            keys.dedup();
+            for name in keys {
+                let path = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+                let null = &Value::Null;
+                compare(&path, a.get(name).unwrap_or(null), b.get(name).unwrap_or(null), found);
+            }
+        }
+        (a, b) if a != b => {
+            found.push(format!("{key} is {} there and {} here", brief(a), brief(b)))
+        }
+        _ => {}
+    }
+}
+
+fn brief(value: &Value) -> String {
+    const LONGEST: usize = 40;
+    let text = value.to_string();
+    if text.chars().count() <= LONGEST {
+        text
+    } else {
+        text.chars().take(LONGEST).chain("...".chars()).collect()
+    }
+}

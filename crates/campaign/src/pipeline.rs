@@ -1,0 +1,74 @@
+//! The way of the data, in order; the first file to read.
+//!
+//! ```text
+//! campaign file -> plan -> [ encounter -> trace -> verdicts -> row ] -> parts -> table, summary
+//!    spec.rs      plan.rs   encounter     sim     rules    row.rs    part.rs   table, summary
+//! ```
+//!
+//! The bracket is run once for every encounter, by the workers of an engine process
+//! (`worker.rs`, `engine.rs`) that a supervisor keeps alive (`supervisor.rs`). Everything after
+//! the parts reads them one by one in order, so memory does not grow with their number.
+
+use crate::cases::Cases;
+use crate::part::{self, PartKey};
+use crate::supervisor::Supervisor;
+use crate::{Error, Folder, Plan};
+use record::{RootDigest, RunRow};
+use summary::Tallies;
+
+/// Where rows go, in order (stratum, j).
+pub trait RowSink {
+    /// The next rows.
+    fn push(&mut self, rows: Vec<RunRow>) -> Result<(), Error>;
+}
+
+/// What all parts of a result add up to.
+#[derive(Debug)]
+pub struct Finished {
+    /// One tally for each stratum, by name.
+    pub tallies: Tallies,
+    /// BLAKE3 over the digests of all runs, in order.
+    pub root_digest: String,
+    /// Rows.
+    pub encounters: u64,
+    /// The encounters that a report shows.
+    pub cases: Cases,
+}
+
+/// The parts of shard `index` (from 1) of `of`; `(1, 1)` is all of them.
+pub fn shard_keys(plan: &Plan, (index, of): (u64, u64)) -> Vec<PartKey> {
+    PartKey::all(plan.strata.len(), plan.encounters_per_stratum)
+        .enumerate()
+        .filter(|(i, _)| *i as u64 % of == index - 1)
+        .map(|(_, key)| key)
+        .collect()
+}
+
+/// Encounters to rows: runs the missing parts of a shard, under supervision.
+pub fn run_parts(
+    plan: &Plan,
+    folder: &Folder,
+    shard: (u64, u64),
+    supervisor: &Supervisor<'_>,
+) -> Result<(), Error> {
+    supervisor.run(plan, folder, &shard_keys(plan, shard))
+}
+
+/// Parts to table, tallies and root digest: one pass in order.
+pub fn finish(plan: &Plan, folder: &Folder, sink: &mut dyn RowSink) -> Result<Finished, Error> {
+    let mut tallies = Tallies::new();
+    let mut root = RootDigest::new();
+    let mut cases = Cases::default();
+    let mut encounters = 0;
+    for key in shard_keys(plan, (1, 1)) {
+        let part = part::read(&folder.parts(), folder.plan_hash(), key)?;
+        for row in &part.rows {
+            root.push(row.digest);
+            cases.offer(row);
+        }
+        tallies.stratum_mut(&plan.strata[key.stratum as usize]).merge(&part.tally);
+        encounters += part.rows.len() as u64;
+        sink.push(part.rows)?;
+    }
+    Ok(Finished { tallies, root_digest: root.hex(), encounters, cases })
+}

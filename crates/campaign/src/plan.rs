@@ -1,0 +1,260 @@
+//! The plan: a campaign resolved for one planner, with nothing left open. Its hash is the identity
+//! of a result, and its JSON stands in the manifest.
+
+use crate::Error;
+use crate::spec::{CampaignFile, Overrides, RunTable};
+use encounter::{Drawn, Generator, Model};
+use record::{Encounter, EncounterId, Seed};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What a binary knows of its own making.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Build {
+    /// Version of the tool.
+    pub tool_version: String,
+    /// Commit of the sources, `unknown` outside a repository.
+    pub git_commit: String,
+    /// Whether the sources were as committed.
+    pub git_clean: bool,
+    /// Hash of the sources that decide a number: geom, record, planner-api, encounter, sim,
+    /// rules, stats, Cargo.lock and rustc.
+    pub engine: String,
+    /// Hash of the sources of the planners in the registry.
+    pub planners: String,
+    /// SHA-256 of Cargo.lock.
+    pub cargo_lock_sha256: String,
+    /// `rustc --version`.
+    pub rustc: String,
+}
+
+/// The planner under test.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlannerChoice {
+    /// Name in the registry.
+    pub name: String,
+    /// Every option with its value.
+    pub options: toml::Table,
+}
+
+/// The rule set that judges.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RulesChoice {
+    /// Its name.
+    pub name: String,
+    /// BLAKE3 of its text.
+    pub hash: String,
+    /// Its text.
+    pub text: String,
+}
+
+impl RulesChoice {
+    /// A rule set from its text; refuses one that contradicts itself.
+    pub fn new(name: &str, text: String) -> Result<Self, Error> {
+        rules::RuleSet::parse(&text).map_err(|e| Error::input(format!("rule set {name}: {e}")))?;
+        let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
+        Ok(Self { name: name.to_owned(), hash, text })
+    }
+
+    /// The parsed rule set.
+    pub fn rule_set(&self) -> Result<rules::RuleSet, Error> {
+        rules::RuleSet::parse(&self.text)
+            .map_err(|e| Error::input(format!("rule set {}: {e}", self.name)))
+    }
+}
+
+/// Where encounters come from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// Random strata.
+    Model(Box<Model>),
+    /// Named encounters, one stratum each.
+    Fixed(Vec<Encounter>),
+}
+
+impl Source {
+    pub(crate) fn of(file: &CampaignFile, situations: Option<&Path>) -> Result<Self, Error> {
+        let settings = encounter::RunSettings {
+            limits: file.run.limits(),
+            safety_radius_m: file.run.safety_radius_m,
+            distance: file.run.distance,
+        };
+        let wrong = |e: encounter::Error| Error::input(format!("campaign {}: {e}", file.name));
+        if let Some(path) = situations {
+            let Some(how) = &file.situations else {
+                return Err(Error::input(format!(
+                    "campaign {} has no [situations] table, which says how --situations are \
+                     taken over; use the campaign `situations`",
+                    file.name
+                )));
+            };
+            let fixed = encounter::read_situations(path, how, &settings).map_err(wrong)?;
+            return Ok(Self::Fixed(fixed));
+        }
+        if file.situations.is_some() {
+            return Err(Error::input(format!(
+                "campaign {} runs situations of other tools: name them with --situations PATH",
+                file.name
+            )));
+        }
+        match (&file.model, &file.set) {
+            (Some(model), _) => {
+                Generator::new(model, &settings).map_err(wrong)?;
+                Ok(Self::Model(Box::new(model.clone())))
+            }
+            (None, Some(set)) => Ok(Self::Fixed(
+                encounter::situations(set, &file.situation, &settings).map_err(wrong)?,
+            )),
+            (None, None) => Err(Error::input(format!("campaign {} has no source", file.name))),
+        }
+    }
+}
+
+/// A campaign resolved for one planner.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// 1.
+    pub schema: u32,
+    /// Name of the campaign.
+    pub campaign: String,
+    /// One line for reports.
+    pub title: String,
+    /// Seed of every random stream.
+    pub seed: Seed,
+    /// The planner under test.
+    pub planner: PlannerChoice,
+    /// The rule set that judges.
+    pub rules: RulesChoice,
+    /// Names of the strata, in order.
+    pub strata: Vec<String>,
+    /// Encounters of each.
+    pub encounters_per_stratum: u64,
+    /// Clock, ends and limits.
+    pub run: RunTable,
+    /// Where encounters come from.
+    pub source: Source,
+    /// What made the result.
+    pub build: Build,
+}
+
+impl Plan {
+    pub(crate) fn new(
+        file: &CampaignFile,
+        overrides: &Overrides,
+        planner: &str,
+        options: toml::Table,
+        rules: &RulesChoice,
+        source: &Source,
+        build: &Build,
+    ) -> Result<Self, Error> {
+        let strata: Vec<String> = match source {
+            Source::Model(model) => model.strata_names(),
+            Source::Fixed(fixed) => fixed.iter().map(|e| e.id.stratum.to_string()).collect(),
+        };
+        let plan = Self {
+            schema: 1,
+            campaign: file.name.clone(),
+            title: file.title.clone(),
+            seed: Seed(overrides.seed.unwrap_or(file.seed)),
+            planner: PlannerChoice { name: planner.to_owned(), options },
+            rules: rules.clone(),
+            strata,
+            encounters_per_stratum: overrides.encounters.unwrap_or(file.encounters_per_stratum),
+            run: file.run,
+            source: source.clone(),
+            build: build.clone(),
+        };
+        plan.check_first_of_each()?;
+        Ok(plan)
+    }
+
+    /// What can be wrong with an encounter (an unknown vessel, hulls that overlap) is told before
+    /// anything is written.
+    fn check_first_of_each(&self) -> Result<(), Error> {
+        let source = self.encounters_source()?;
+        for stratum in 0..self.strata.len() as u32 {
+            let encounter = source.draw(stratum, 0)?.encounter;
+            sim::check(&encounter).map_err(|e| Error::input(format!("{}: {e}", encounter.id)))?;
+        }
+        Ok(())
+    }
+
+    /// The plan as JSON, the form that is hashed and stored.
+    pub fn json(&self) -> Result<serde_json::Value, Error> {
+        serde_json::to_value(self)
+            .map_err(|e| Error::Fault(format!("failed to write the plan as JSON: {e}")))
+    }
+
+    /// BLAKE3 of the plan's JSON, less the commit: two commits with the same engine and planners
+    /// give the same numbers.
+    pub fn hash(&self) -> Result<String, Error> {
+        let mut json = self.json()?;
+        if let Some(build) = json.get_mut("build").and_then(|b| b.as_object_mut()) {
+            build.remove("git_commit");
+            build.remove("git_clean");
+        }
+        Ok(blake3::hash(json.to_string().as_bytes()).to_hex().to_string())
+    }
+
+    /// Number of encounters.
+    pub fn encounters(&self) -> u64 {
+        self.strata.len() as u64 * self.encounters_per_stratum
+    }
+
+    /// The id of encounter `j` of a stratum.
+    pub fn id(&self, stratum: u32, j: u64) -> EncounterId {
+        EncounterId::new(self.strata[stratum as usize].as_str(), j)
+    }
+
+    /// The index of an id's stratum, if the id is one of this plan's.
+    pub fn stratum_of(&self, id: &EncounterId) -> Option<u32> {
+        let index = self.strata.iter().position(|name| **name == *id.stratum)?;
+        (id.j < self.encounters_per_stratum).then_some(index as u32)
+    }
+
+    /// A way to draw this plan's encounters.
+    pub fn encounters_source(&self) -> Result<EncounterSource, Error> {
+        let settings = encounter::RunSettings {
+            limits: self.run.limits(),
+            safety_radius_m: self.run.safety_radius_m,
+            distance: self.run.distance,
+        };
+        Ok(match &self.source {
+            Source::Model(model) => EncounterSource::Random(
+                Box::new(
+                    Generator::new(model, &settings).map_err(|e| Error::input(e.to_string()))?,
+                ),
+                self.seed,
+            ),
+            Source::Fixed(fixed) => EncounterSource::Fixed(fixed.clone(), self.seed),
+        })
+    }
+}
+
+/// Draws encounters.
+#[derive(Debug)]
+pub enum EncounterSource {
+    /// From random strata.
+    Random(Box<Generator>, Seed),
+    /// From a list; encounter `j` of a stratum has the same geometry and its own noise.
+    Fixed(Vec<Encounter>, Seed),
+}
+
+impl EncounterSource {
+    /// Encounter `j` of a stratum, and how many draws were rejected on the way.
+    pub fn draw(&self, stratum: u32, j: u64) -> Result<Drawn, Error> {
+        match self {
+            Self::Random(generator, seed) => {
+                generator.draw(*seed, stratum as usize, j).map_err(|e| Error::input(e.to_string()))
+            }
+            Self::Fixed(list, seed) => {
+                let mut encounter = list[stratum as usize].clone();
+                encounter.seed = *seed;
+                encounter.id.j = j;
+                Ok(Drawn { encounter, rejected: 0 })
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! From encounter, trace and judgement to one flat row.
+
+use geom::{Relative, Vec2};
+use record::{
+    Check, CheckCell, Digest, Encounter, Outcome, PlannerEvents, Reaction, RunRow, Status, Trace,
+    verdict::{Judgement, PairFacts},
+};
+
+/// The row of a run that left a trace.
+pub fn of_run(encounter: &Encounter, trace: &Trace, digest: Digest, judged: &Judgement) -> RunRow {
+    let mut row = start(encounter, trace.outcome, digest);
+    let closest = trace
+        .pairs
+        .iter()
+        .enumerate()
+        .min_by(|(_, a), (_, b)| {
+            a.minimum.of(trace.distance).0.total_cmp(&b.minimum.of(trace.distance).0)
+        })
+        .map(|(index, pair)| (index, pair.minimum));
+    let least = |of: fn(&record::PairMinimum) -> f64| {
+        trace.pairs.iter().map(|pair| of(&pair.minimum)).min_by(f64::total_cmp)
+    };
+    row.end_s = trace.end_s;
+    row.cpa_hull_m = least(|m| m.hull_m);
+    row.cpa_centre_m = least(|m| m.centre_m);
+    if let Some((index, minimum)) = closest {
+        let (distance_m, at_s) = minimum.of(trace.distance);
+        row.cpa_s = Some(at_s);
+        row.safety_radius_broken = distance_m < trace.safety_radius_m;
+        row.class = judged.pairs.get(index).and_then(|pair| pair.class);
+        row.ambiguous = judged.pairs.get(index).is_some_and(|pair| pair.ambiguous);
+    }
+    // a run that was cut may have come closer later: its distance so far proves only a breach
+    row.unknown = trace.outcome.is_planner_failure()
+        || trace.outcome == Outcome::Invalid
+        || (trace.outcome == Outcome::Truncated
+            && judged.pairs.iter().any(|pair| pair.cpa_s.is_none() && pair.risk_s.is_some()));
+    if let Some(nominal) = &trace.nominal {
+        let hull = nominal.minima.iter().map(|m| m.hull_m).min_by(f64::total_cmp);
+        let kind = nominal.minima.iter().map(|m| m.of(trace.distance).0).min_by(f64::total_cmp);
+        row.nominal_cpa_hull_m = hull;
+        row.nominal_safety_radius_broken = kind.map(|m| m < trace.safety_radius_m);
+    }
+    reactions(&mut row, judged);
+    route(&mut row, encounter, trace);
+    if let Some(contact) = trace.contact {
+        row.impact_mps = Some(contact.impact_mps);
+        row.impulse_ns = Some(contact.impulse_ns);
+        row.energy_lost_j = Some(contact.energy_lost_j);
+    }
+    row.events = trace.events;
+    row.checks = Check::ALL
+        .into_iter()
+        .map(|check| match judged.worst(check) {
+            Some(verdict) => CheckCell { status: verdict.status, margin: verdict.margin },
+            None => CheckCell { status: Status::NotEvaluated, margin: None },
+        })
+        .collect();
+    row
+}
+
+/// The row of a run that took its process with it, or could not be run.
+pub fn of_lost_run(encounter: &Encounter, outcome: Outcome) -> RunRow {
+    let mut row = start(encounter, outcome, Digest::of_lost_run(&encounter.id, outcome));
+    row.unknown = true;
+    row
+}
+
+fn start(encounter: &Encounter, outcome: Outcome, digest: Digest) -> RunRow {
+    let own = &encounter.own.start;
+    let first = encounter.targets.first();
+    let lie = first.map(|target| {
+        let start = &target.start;
+        Relative::new(own.position_m, own.psi_rad, start.position_m, start.psi_rad)
+    });
+    RunRow {
+        id: encounter.id.clone(),
+        outcome,
+        digest,
+        weight: encounter.weight,
+        targets: encounter.targets.len() as u8,
+        class: None,
+        ambiguous: false,
+        own_speed_mps: own.speed_mps,
+        target_speed_mps: first.map(|t| t.start.speed_mps),
+        target_length_m: first.map(|t| t.hull.length_m),
+        beta_rad: lie.map(|lie| lie.beta_rad),
+        alpha_rad: lie.map(|lie| lie.alpha_rad),
+        range_m: lie.map(|lie| lie.range_m),
+        miss_m: encounter.asked.map(|asked| asked.miss_m),
+        tcpa_s: encounter.asked.map(|asked| asked.tcpa_s),
+        end_s: 0.0,
+        cpa_hull_m: None,
+        cpa_centre_m: None,
+        cpa_s: None,
+        unknown: false,
+        safety_radius_broken: false,
+        nominal_cpa_hull_m: None,
+        nominal_safety_radius_broken: None,
+        unavoidable: None,
+        risk_s: None,
+        reaction: Reaction::Unknown,
+        apparent: Reaction::Unknown,
+        first_turn_rad: None,
+        extra_distance_m: None,
+        goal_reached: false,
+        impact_mps: None,
+        impulse_ns: None,
+        energy_lost_j: None,
+        events: PlannerEvents::default(),
+        checks: Vec::new(),
+        judges_disagree: None,
+    }
+}
+
+/// The reaction to the first target at risk; `NoRisk` only where no pair ever was.
+fn reactions(row: &mut RunRow, judged: &Judgement) {
+    let first = judged
+        .pairs
+        .iter()
+        .filter(|pair| pair.risk_s.is_some())
+        .min_by(|a, b| a.risk_s.unwrap_or(f64::MAX).total_cmp(&b.risk_s.unwrap_or(f64::MAX)));
+    let shown: Option<&PairFacts> = first.or(judged.pairs.first());
+    if let Some(pair) = shown {
+        row.risk_s = pair.risk_s;
+        row.reaction = pair.reaction;
+        row.apparent = pair.apparent;
+        row.first_turn_rad = pair.first_turn_rad;
+    }
+}
+
+/// How far own ship may be from the goal to have reached it, in hull lengths of a 50 m ship; the
+/// same circle ends a run that goes on to its goal.
+const GOAL_CAPTURE_M: f64 = 50.0;
+
+/// Distance sailed and still to sail, less the straight way over the route.
+fn route(row: &mut RunRow, encounter: &Encounter, trace: &Trace) {
+    let own = &trace.own;
+    let (Some(goal), false) = (encounter.own.route.last(), own.is_empty()) else { return };
+    let mut sailed_m = 0.0;
+    for k in 1..own.len() {
+        sailed_m += (own.position_m(k) - own.position_m(k - 1)).norm();
+    }
+    let last: Vec2 = own.position_m(own.len() - 1);
+    let to_go_m = (goal.position_m - last).norm();
+    let mut planned_m = 0.0;
+    let mut from = encounter.own.start.position_m;
+    for waypoint in &encounter.own.route {
+        planned_m += (waypoint.position_m - from).norm();
+        from = waypoint.position_m;
+    }
+    row.extra_distance_m = Some(sailed_m + to_go_m - planned_m);
+    row.goal_reached = to_go_m <= GOAL_CAPTURE_M;
+}

@@ -1,0 +1,168 @@
+//! What is remembered of each target: its class, own ship's duty, and whether she may act.
+
+use super::options::CorrectedOptions;
+use geom::{
+    EncounterClass, HeadOnSector, Relative, class::OVERTAKING_SECTOR_RAD, classify, units::deg,
+};
+use planner_api::{OwnState, TargetTrack};
+
+/// An encounter from first risk until past and clear.
+#[derive(Clone, Copy, Debug)]
+pub struct Encounter {
+    /// Number of the track.
+    pub id: u32,
+    /// Class at first risk.
+    pub class: EncounterClass,
+    /// Relative bearing now, radians, positive to starboard.
+    pub beta_rad: f64,
+    /// The class was in doubt: it may be a crossing to the other ship.
+    pub doubtful: bool,
+    /// Own ship gives way, or stands on and has seen the other one do nothing (17(a)(ii)).
+    pub may_act: bool,
+    /// Stand-on: since when the prediction has been too close, seconds.
+    pub too_close_since_s: Option<f64>,
+}
+
+/// What the moment says about a target.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    /// Simulated time, seconds.
+    pub t_s: f64,
+    /// Distance hull to hull (between centres where the mission says so), metres.
+    pub range_m: f64,
+    /// Predicted distance at the present velocities, likewise, metres.
+    pub dcpa_m: f64,
+    /// Rate of closing, m/s; negative when the range opens.
+    pub closing_mps: f64,
+    /// Relative bearing, radians, positive to starboard.
+    pub beta_rad: f64,
+}
+
+impl Encounter {
+    /// A new one, with the class found from headings as they are now.
+    pub fn begin(own: &OwnState, track: &TargetTrack, options: &CorrectedOptions) -> Self {
+        let psi_rad = track.psi_rad.unwrap_or(track.cog_rad);
+        let pose = Relative::new(own.position_m, own.psi_rad, track.position_m, psi_rad);
+        let class = class_in_doubt(&pose, track.sog_mps, options);
+        let may_act = !matches!(class, EncounterClass::CrossingPort | EncounterClass::Overtaken);
+        let (id, beta_rad) = (track.id, pose.beta_rad);
+        let doubtful = pose.alpha_rad.abs() <= OVERTAKING_SECTOR_RAD;
+        Self { id, class, beta_rad, doubtful, may_act, too_close_since_s: None }
+    }
+
+    /// Lets a stand-on ship act once the other one has plainly done nothing.
+    pub fn watch(&mut self, moment: Moment, options: &CorrectedOptions) {
+        self.beta_rad = moment.beta_rad;
+        if self.may_act {
+            return;
+        }
+        let limit_m = if self.class == EncounterClass::Overtaken {
+            options.overtaken_range_m.max(moment.closing_mps * options.overtaken_time_s)
+        } else {
+            options.stand_on_range_m
+        };
+        let too_close = moment.range_m <= limit_m
+            && moment.closing_mps > 0.0
+            && moment.dcpa_m < options.stand_on_dcpa_m;
+        if !too_close {
+            self.too_close_since_s = None;
+            return;
+        }
+        let since_s = *self.too_close_since_s.get_or_insert(moment.t_s);
+        self.may_act = moment.t_s - since_s >= options.stand_on_patience_s;
+    }
+
+    /// Whether own ship may alter to port for this one: never in head-on or crossing encounters,
+    /// nor in what may be one, and not towards an overtaker.
+    pub fn admits_port(&self) -> bool {
+        match self.class {
+            EncounterClass::Overtaking => !self.doubtful,
+            EncounterClass::Static => true,
+            EncounterClass::Overtaken => self.beta_rad > 0.0,
+            _ => false,
+        }
+    }
+
+    /// Whether the target has to be left on own port hand (port to port; astern of it).
+    pub fn wants_target_to_port(&self) -> bool {
+        matches!(self.class, EncounterClass::HeadOn | EncounterClass::CrossingStbd)
+    }
+}
+
+/// The class, with doubt resolved towards overtaking, head-on and giving way.
+fn class_in_doubt(
+    pose: &Relative,
+    target_sog_mps: f64,
+    options: &CorrectedOptions,
+) -> EncounterClass {
+    if target_sog_mps < crate::zhuang::class::STATIC_SPEED_MPS {
+        return EncounterClass::Static;
+    }
+    let doubt_rad = deg(options.doubt_deg);
+    if pose.alpha_rad.abs() > OVERTAKING_SECTOR_RAD - doubt_rad {
+        return EncounterClass::Overtaking;
+    }
+    let sector = HeadOnSector::wide(deg(options.head_on_half_angle_deg));
+    match classify(pose.beta_rad, pose.alpha_rad, sector) {
+        EncounterClass::CrossingPort if pose.beta_rad > -doubt_rad => EncounterClass::CrossingStbd,
+        class => class,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stand_on() -> Encounter {
+        Encounter {
+            id: 1,
+            class: EncounterClass::CrossingPort,
+            beta_rad: -1.0,
+            doubtful: false,
+            may_act: false,
+            too_close_since_s: None,
+        }
+    }
+
+    fn moment(t_s: f64, range_m: f64, dcpa_m: f64) -> Moment {
+        Moment { t_s, range_m, dcpa_m, closing_mps: 10.0, beta_rad: -1.0 }
+    }
+
+    #[test]
+    fn a_stand_on_ship_waits_for_range_nearness_and_time() {
+        let options = CorrectedOptions::default();
+        let mut encounter = stand_on();
+        for (t_s, range_m, dcpa_m, may_act) in [
+            (0.0, 800.0, 0.0, false),
+            (10.0, 699.0, 0.0, false),
+            (15.0, 650.0, 150.0, false),
+            // the other ship seemed to act: the wait begins again
+            (16.0, 640.0, 50.0, false),
+            (21.0, 600.0, 50.0, false),
+            (22.0, 590.0, 50.0, true),
+            // and what it may do it may go on doing
+            (23.0, 580.0, 300.0, true),
+        ] {
+            encounter.watch(moment(t_s, range_m, dcpa_m), &options);
+            assert_eq!(encounter.may_act, may_act, "{t_s}");
+        }
+    }
+
+    #[test]
+    fn doubt_is_resolved_as_the_rules_say() {
+        let class = |beta_deg: f64, alpha_deg: f64| {
+            let pose = Relative {
+                range_m: 1000.0,
+                bearing_rad: 0.0,
+                beta_rad: deg(beta_deg),
+                alpha_rad: deg(alpha_deg),
+            };
+            class_in_doubt(&pose, 5.0, &CorrectedOptions::default())
+        };
+        assert_eq!(class(14.0, -14.0), EncounterClass::HeadOn, "14(c)");
+        assert_eq!(class(40.0, 111.0), EncounterClass::Overtaking, "13(c)");
+        assert_eq!(class(-1.5, 60.0), EncounterClass::CrossingStbd);
+        assert_eq!(class(-3.0, 60.0), EncounterClass::CrossingPort);
+        assert_eq!(class(-113.0, 10.0), EncounterClass::Overtaken);
+    }
+}

@@ -1,0 +1,11 @@
+//! The planners in scenes: the paper's four simulations, the findings, the negative controls, the
+//! conformance kit.
+
+mod conformance;
+mod controls;
+mod figures;
+mod findings;
+mod memory;
+mod random;
+mod rivals;
+mod scene;

@@ -1,0 +1,131 @@
+//! Rule 13: overtaking. Own ship overtakes.
+//!
+//! Rule 13(a): "any vessel overtaking any other shall keep out of the way of the vessel being
+//! overtaken"; 13(d): "Any subsequent alteration of the bearing ... shall not ... relieve her of the
+//! duty of keeping clear of the overtaken vessel until she is finally past and clear."
+//! Reading: either side is allowed. 13(a) fails with the passing distance. 13(d) fails when, before
+//! release, own ship crosses the other's centre line close ahead of her bow, comes close on her bow
+//! while the range falls, or turns towards her line from forward of the sector of 13(b) so that a
+//! close pass is predicted. Drawing ahead on a steady course is no breach. A run that ends before
+//! release cannot show that 13(d) was kept. That the other was forced to act is not judged.
+//! Source: rules specification, section 8; score after Hagen 2023, equations 25 and 26.
+
+use crate::case::Case;
+use crate::crossing_ahead::{Line, crossed_ahead};
+use crate::ruling::{Ruling, not_applicable};
+use crate::{safe, score};
+use geom::class::OVERTAKING_SECTOR_RAD;
+use geom::units::deg;
+use geom::{EncounterClass, angle, math};
+use record::{Check, Status, Verdict};
+
+/// "Closer than r_min with |alpha| below this while the range falls" (section 8).
+const ON_THE_BOW_RAD: f64 = deg(45.0);
+
+struct Breach {
+    detail: &'static str,
+    t_s: f64,
+    what: String,
+    margin_m: f64,
+}
+
+pub(crate) fn check(case: &Case<'_>) -> Verdict {
+    if case.class != EncounterClass::Overtaking || case.restricted {
+        return not_applicable(case, Check::R13);
+    }
+    let breach = keeps_out_of_the_way(case).or_else(|| stays_clear(case));
+    let (status, detail) = match &breach {
+        Some(breach) => (Status::Fail, breach.detail),
+        None if case.released_s.is_none() => (Status::Inconclusive, "NOT-RELEASED"),
+        None => (Status::Pass, ""),
+    };
+    let clear_m = case.life.distance_m() - case.rules().distance.r_min_m;
+    let margin_m = breach.as_ref().map_or(clear_m, |breach| breach.margin_m);
+    Ruling::new(Check::R13, case.life.target, status)
+        .detail(detail)
+        .margin(margin_m)
+        .score(score::overtaking(case))
+        .at(breach.as_ref().map(|breach| breach.t_s).or(case.released_s))
+        .metres("d", case.life.distance_m())
+        .seconds("released", case.released_s)
+        .say(|| match &breach {
+            Some(breach) => format!("{}, {}. Rule 13.", case.when(breach.t_s), breach.what),
+            None => String::new(),
+        })
+        .done()
+}
+
+/// 13(a).
+fn keeps_out_of_the_way(case: &Case<'_>) -> Option<Breach> {
+    let (distance_m, t_s) = case.life.pair().minimum.of(case.life.trace.distance);
+    (safe::level(case.life).0 == Status::Fail).then(|| Breach {
+        detail: "FAIL-13A",
+        t_s,
+        what: format!("own ship, overtaking, passed at {distance_m:.0} m"),
+        margin_m: distance_m - case.rules().distance.r_min_m,
+    })
+}
+
+/// 13(d).
+fn stays_clear(case: &Case<'_>) -> Option<Breach> {
+    let life = case.life;
+    let last = life.actual.len() - 1;
+    let until = case.released_s.map_or(last, |t_s| life.sample(t_s));
+    let from = case.onset.k.min(until);
+    let d = &case.rules().distance;
+    if let Some(crossing) = crossed_ahead(case, Line::Centreline, from, until) {
+        let ahead_m = crossing.ahead_m;
+        return Some(Breach {
+            detail: "FAIL-13D-AHEAD",
+            t_s: crossing.t_s,
+            what: format!("own ship, overtaking, crossed {ahead_m:.0} m ahead of her bow"),
+            margin_m: ahead_m - d.r_pref_m,
+        });
+    }
+    let on_the_bow = (from..=until).find(|&k| {
+        life.distance_at_m(k) < d.r_min_m
+            && life.actual.closing(k)
+            && cos_alpha(case, k) > math::cos(ON_THE_BOW_RAD)
+    });
+    if let Some(k) = on_the_bow {
+        let distance_m = life.distance_at_m(k);
+        return Some(Breach {
+            detail: "FAIL-13D-BOW",
+            t_s: life.time_s(k),
+            what: format!("own ship, overtaking, closed to {distance_m:.0} m on her bow"),
+            margin_m: distance_m - d.r_min_m,
+        });
+    }
+    turns_in(case, until)
+}
+
+/// A substantial turn towards the other's line, from forward of the overtaking sector, into a
+/// close pass. It is sought to release, past the window of action.
+fn turns_in(case: &Case<'_>, until: usize) -> Option<Breach> {
+    let life = case.life;
+    let d = &case.rules().distance;
+    let last = life.actual.len() - 1;
+    let towards = case.later_turns.iter().find(|run| {
+        let seen = crate::risk::relative(&life.actual, run.start.min(last));
+        run.start >= case.onset.k
+            && run.start <= until
+            && run.size_rad.abs() >= case.rules().manoeuvre.substantial_turn_rad
+            && seen.alpha_rad.abs() < OVERTAKING_SECTOR_RAD
+            && run.size_rad * seen.alpha_rad < 0.0
+            && life.actual.tcpa_s(run.end).is_some_and(|t| t > 0.0)
+            && life.actual.dcpa_below(run.end, d.r_min_m)
+    })?;
+    let dcpa_m = life.actual.dcpa_m(towards.end);
+    let altered = Case::altered(towards.size_rad);
+    Some(Breach {
+        detail: "FAIL-13D-TURN",
+        t_s: life.time_s(towards.start),
+        what: format!("own ship, not yet past and clear, {altered}, to pass at {dcpa_m:.0} m"),
+        margin_m: dcpa_m - d.r_min_m,
+    })
+}
+
+fn cos_alpha(case: &Case<'_>, k: usize) -> f64 {
+    let to_own = -case.life.actual.relative(k).0;
+    angle::unit(case.life.actual.target.psi_rad[k]).dot(&to_own) / to_own.norm().max(1e-9)
+}

@@ -1,0 +1,103 @@
+//! Rule 17: hold, may act, shall act, not to port.
+
+use super::*;
+use Status::{Fail, NotApplicable, Pass, Warn};
+
+fn stand_on(script: Script) -> Judgement {
+    judge(&Scene::new(script.hold(700.0), from_port()))
+}
+
+/// The other passes 70 m astern, so that nobody needs to act.
+fn passed_astern(script: Script) -> Judgement {
+    judge(&Scene::new(script.hold(600.0), target(1800.0, -1920.0, 90.0, 6.0)))
+}
+
+#[test]
+fn holding_complies() {
+    expect(&passed_astern(own(6.0)), Check::R17Hold, Pass, "");
+}
+
+#[test]
+fn altering_in_stage_2_fails_and_a_small_yaw_warns() {
+    // stage 2 begins at 77 s, stage 3 at 218 s
+    let turned = |angle: f64| stand_on(own(6.0).hold(100.0).turn(angle, 3.0).hold(60.0));
+    expect(&turned(20.0), Check::R17Hold, Fail, "FAIL-17AI");
+    expect(&turned(9.8), Check::R17Hold, Warn, "UNSTEADY");
+    expect(&turned(10.2), Check::R17Hold, Fail, "FAIL-17AI");
+    expect(&turned(1.8), Check::R17Hold, Pass, "");
+    let slowed = |to: f64| stand_on(own(6.0).hold(100.0).speed_to(to, 0.2).hold(60.0));
+    expect(&slowed(4.4), Check::R17Hold, Fail, "FAIL-17AI");
+    expect(&slowed(4.6), Check::R17Hold, Warn, "UNSTEADY");
+}
+
+#[test]
+fn from_stage_3_on_she_may_act() {
+    let acted = stand_on(own(6.0).hold(225.0).turn(60.0, 6.0));
+    expect(&acted, Check::R17Hold, Pass, "");
+    expect(&acted, Check::R17May, Pass, "ACTED");
+    // the moment itself is the entry of stage 3, 218 s
+    assert_eq!(verdict(&acted, Check::R17May).t_s, Some(218.0));
+    // the other gives way in time: the moment never comes
+    let gives_way = Script::new(ship(40.0, 8.0), 1800.0, -1800.0, deg(90.0), 6.0)
+        .hold(100.0)
+        .turn(50.0, 2.0)
+        .hold(700.0);
+    let trace =
+        Scene::new(own(6.0).hold(600.0), gives_way).nominal_targets(vec![from_port().hold(1000.0)]);
+    let judgement = judge(&trace);
+    expect(&judgement, Check::R17May, NotApplicable, "");
+    expect(&judgement, Check::R17Hold, Pass, "");
+    // boundary pair: she acts well before and just after it
+    let before = stand_on(own(6.0).hold(200.0).turn(60.0, 6.0));
+    expect(&before, Check::R17Hold, Fail, "FAIL-17AI");
+}
+
+#[test]
+fn in_extremis_she_shall_act() {
+    // stage 4 at 277 s; five seconds of grace
+    expect(&stand_on(own(6.0)), Check::R17Shall, Fail, "FAIL-17B");
+    expect(&stand_on(own(6.0).hold(280.0).turn(60.0, 10.0)), Check::R17Shall, Pass, "");
+    expect(&stand_on(own(6.0).hold(288.0).turn(60.0, 10.0)), Check::R17Shall, Fail, "FAIL-17B");
+    // begun under 17(a)(ii), twelve seconds before stage 4
+    expect(&stand_on(own(6.0).hold(265.0).turn(30.0, 2.0)), Check::R17Shall, Pass, "");
+    // begun so early that stage 4 never came
+    expect(&stand_on(own(6.0).hold(225.0).turn(60.0, 6.0)), Check::R17Shall, NotApplicable, "");
+    // to pass at 70 m is no near miss
+    expect(&passed_astern(own(6.0)), Check::R17Shall, NotApplicable, "CLEARING");
+    let give_way = judge(&Scene::new(own(6.0).hold(700.0), from_starboard()));
+    expect(&give_way, Check::R17Shall, NotApplicable, "");
+}
+
+#[test]
+fn not_to_port_for_a_ship_on_the_port_side() {
+    let acted = |angle: f64| stand_on(own(6.0).hold(225.0).turn(angle, 6.0));
+    expect(&acted(60.0), Check::R17Port, Pass, "");
+    expect(&acted(-60.0), Check::R17Port, Fail, "FAIL-17C");
+    expect(&acted(-9.8), Check::R17Port, Warn, "PORT");
+    expect(&acted(-10.2), Check::R17Port, Fail, "FAIL-17C");
+    let extremis = stand_on(own(6.0).hold(279.0).turn(-40.0, 8.0));
+    expect(&extremis, Check::R17Port, Warn, "PORT-IN-EXTREMIS");
+    let give_way = judge(&Scene::new(own(6.0).hold(700.0), from_starboard()));
+    expect(&give_way, Check::R17Port, NotApplicable, "");
+}
+
+#[test]
+fn a_conservative_rule_set_fails_port_in_stage_4_too() {
+    let text = rules().text().replace("port_in_stage_4 = \"warn\"", "port_in_stage_4 = \"fail\"");
+    let trace = Scene::new(own(6.0).hold(279.0).turn(-40.0, 8.0).hold(400.0), from_port()).trace();
+    let judgement = judge_by(RuleSet::parse(&text).unwrap(), &trace);
+    expect(&judgement, Check::R17Port, Fail, "FAIL-17C");
+    expect(&judgement, Check::Turn, Fail, "FAIL-17C");
+}
+
+/// A yaw of 1 degree rms, period 8 s, is a held course.
+#[test]
+fn a_yaw_in_a_seaway_is_a_held_course() {
+    let mut script = own(6.0);
+    for _ in 0..70 {
+        script = script.turn(1.4, 0.7).turn(-2.8, 0.7).turn(1.4, 0.7);
+    }
+    let judgement = judge(&Scene::new(script, target(1800.0, -1920.0, 90.0, 6.0)));
+    expect(&judgement, Check::R17Hold, Pass, "");
+    expect(&judgement, Check::Turn, NotApplicable, "NO-TURN");
+}

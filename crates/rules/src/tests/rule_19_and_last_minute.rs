@@ -1,0 +1,122 @@
+//! Rule 19, and the last-minute margin.
+
+use super::*;
+use Status::{Fail, Inconclusive, NotApplicable, NotEvaluated, Pass, Warn};
+use record::{LastInstant, LastMinute, Role, Visibility};
+
+fn fog(mut scene: Scene, visual_range_m: f64) -> Judgement {
+    scene.visibility = Visibility::Restricted { visual_range_m };
+    judge(&scene)
+}
+
+#[test]
+fn in_fog_to_starboard_for_a_ship_ahead_complies() {
+    let scene = Scene::new(own(6.0).hold(60.0).turn(40.0, 3.0).hold(500.0), head_on());
+    let judgement = fog(scene, 50.0);
+    expect(&judgement, Check::R19, Pass, "");
+    expect(&judgement, Check::R14, NotApplicable, "");
+    expect(&judgement, Check::Turn, NotApplicable, "");
+    assert_eq!(judgement.pairs[0].role, Role::None);
+}
+
+#[test]
+fn in_fog_to_port_for_a_ship_ahead_fails() {
+    let turned = |angle: f64| {
+        fog(Scene::new(own(6.0).hold(60.0).turn(angle, 3.0).hold(500.0), head_on()), 50.0)
+    };
+    expect(&turned(-40.0), Check::R19, Fail, "FAIL-19D-I");
+    // boundary pair
+    let wide = |angle: f64| {
+        let scene = Scene::new(
+            own(6.0).hold(60.0).turn(angle, 3.0).hold(500.0),
+            target(2400.0, 180.0, 180.0, 6.0),
+        );
+        fog(scene, 50.0)
+    };
+    expect(&wide(-9.7), Check::R19, Warn, "FAIL-19D-I");
+    expect(&wide(-10.3), Check::R19, Fail, "FAIL-19D-I");
+}
+
+#[test]
+fn in_fog_towards_a_ship_abaft_the_beam_fails() {
+    let astern = || target(-1100.0, 1000.0, -30.0, 8.0);
+    let turned = |angle: f64| {
+        fog(Scene::new(own(3.0).hold(30.0).turn(angle, 3.0).hold(700.0), astern()), 20.0)
+    };
+    expect(&turned(40.0), Check::R19, Fail, "FAIL-19D-II");
+    assert_ne!(verdict(&turned(-40.0), Check::R19).detail, "FAIL-19D-II");
+}
+
+#[test]
+fn in_fog_she_takes_her_way_off_at_close_quarters() {
+    let kept = fog(Scene::new(own(6.0).hold(400.0), target(2400.0, 80.0, 180.0, 6.0)), 20.0);
+    expect(&kept, Check::R19, Fail, "FAIL-19E");
+    let slowed = Scene::new(
+        own(6.0).hold(60.0).speed_to(1.5, 0.2).hold(500.0),
+        target(2400.0, 80.0, 180.0, 6.0),
+    );
+    expect(&fog(slowed, 20.0), Check::R19, Pass, "");
+}
+
+#[test]
+fn rule_19_does_not_apply_in_sight() {
+    let judgement = judge(&Scene::new(own(6.0).hold(500.0), head_on()));
+    expect(&judgement, Check::R19, NotApplicable, "");
+}
+
+/// Named in section 16: the ships come in sight at 500 m.
+#[test]
+fn on_coming_in_sight_the_rules_change() {
+    // 500 m apart at 2400 - 12 t = 500, 158.4 s; she turns to port in sight
+    let scene = Scene::new(own(6.0).hold(165.0).turn(-40.0, 8.0).hold(400.0), head_on());
+    let judgement = fog(scene, 500.0);
+    expect(&judgement, Check::R14, Fail, "FAIL-14-PORT");
+    expect(&judgement, Check::Turn, Fail, "FAIL-14-PORT");
+    assert_ne!(verdict(&judgement, Check::R19).detail, "FAIL-19D-I");
+    assert_eq!((judgement.pairs[0].risk_s, judgement.pairs[0].role), (Some(42.0), Role::Both));
+    // and to port out of sight
+    let before = Scene::new(own(6.0).hold(100.0).turn(-40.0, 8.0).hold(400.0), head_on());
+    expect(&fog(before, 500.0), Check::R19, Fail, "FAIL-19D-I");
+}
+
+fn last_minute(own_last: LastInstant, act_at_s: f64) -> Judgement {
+    let mut trace =
+        Scene::new(own(6.0).hold(act_at_s).turn(40.0, 4.0).hold(400.0), head_on()).trace();
+    let never = LastInstant::NeverCritical;
+    trace.last_minute = Some(vec![LastMinute {
+        own: own_last,
+        own_any_turn: own_last,
+        own_near_miss: never,
+        target: never,
+    }]);
+    judge_by(rules(), &trace)
+}
+
+#[test]
+fn last_minute_margin_is_read_from_the_trace() {
+    // the smoothed rate reaches its threshold about two seconds before the turn at 80 s
+    expect(&last_minute(LastInstant::At(150.0), 80.0), Check::LastMinute, Pass, "");
+    expect(&last_minute(LastInstant::At(85.0), 80.0), Check::LastMinute, Warn, "LAST-MINUTE");
+    expect(&last_minute(LastInstant::At(70.0), 80.0), Check::LastMinute, Fail, "IN-EXTREMIS");
+    expect(
+        &last_minute(LastInstant::At(70.0), 80.0),
+        Check::R8Time,
+        Fail,
+        "FAIL-8-AFTER-LAST-INSTANT",
+    );
+    expect(&last_minute(LastInstant::NeverCritical, 80.0), Check::LastMinute, NotApplicable, "");
+    expect(
+        &last_minute(LastInstant::BeforeStart, 80.0),
+        Check::LastMinute,
+        Inconclusive,
+        "TOO-LATE-AT-START",
+    );
+    expect(
+        &last_minute(LastInstant::Indicative(150.0), 80.0),
+        Check::LastMinute,
+        Pass,
+        "INDICATIVE",
+    );
+    let without = judge(&Scene::new(own(6.0).hold(500.0), head_on()));
+    expect(&without, Check::LastMinute, NotEvaluated, "NO-LAST-MINUTE-DATA");
+}

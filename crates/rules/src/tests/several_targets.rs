@@ -1,0 +1,52 @@
+//! Several targets: pair by pair, and who a turn was for (section 11).
+
+use super::*;
+use Status::{Fail, NotApplicable, Pass};
+
+fn of(judgement: &Judgement, target: u8, check: Check) -> &Verdict {
+    let found = judgement.verdicts.iter().find(|v| v.target == Some(target) && v.check == check);
+    found.unwrap()
+}
+
+/// She must give way to one from starboard; the other, from port, is not to be told that she broke
+/// Rule 17.
+#[test]
+fn a_turn_forced_by_another_target_is_excused() {
+    let scene = Scene::new(own(6.0).hold(100.0).turn(60.0, 6.0).hold(600.0), from_port())
+        .and(from_starboard());
+    let judgement = judge(&scene);
+    assert_eq!(of(&judgement, 0, Check::Turn).status, NotApplicable);
+    assert_eq!(of(&judgement, 0, Check::Turn).detail, "FORCED-BY-TARGET-1");
+    assert_eq!(of(&judgement, 0, Check::R17Hold).status, Pass);
+    assert_eq!(of(&judgement, 0, Check::R17Hold).detail, "EXCUSED-BY-TARGET-1");
+    assert_eq!(of(&judgement, 1, Check::Turn).status, Pass);
+    assert_eq!(judgement.status(Check::Turn), Pass);
+    // alone, the same turn breaks 17(a)(i)
+    let alone = Scene::new(own(6.0).hold(100.0).turn(60.0, 6.0).hold(600.0), from_port());
+    expect(&judge(&alone), Check::R17Hold, Fail, "FAIL-17AI");
+}
+
+#[test]
+fn a_turn_that_endangers_a_third_ship_fails_8c() {
+    // own ship turns away from the one and into the course of another that was to pass wide
+    let script = || own(6.0).hold(60.0).turn(40.0, 4.0).hold(500.0);
+    let third = target(1550.0, 820.0, 180.0, 2.0);
+    let judgement = judge(&Scene::new(script(), head_on()).and(third));
+    let found = of(&judgement, 0, Check::R8Third);
+    assert_eq!((found.status, found.detail.as_ref()), (Fail, "FAIL-8C-TARGET-1"), "{found:#?}");
+    let wide = target(1550.0, -900.0, 180.0, 2.0);
+    let judgement = judge(&Scene::new(script(), head_on()).and(wide));
+    assert_eq!(of(&judgement, 0, Check::R8Third).status, Pass);
+    assert_eq!(judge(&Scene::new(script(), head_on())).status(Check::R8Third), NotApplicable);
+}
+
+#[test]
+fn the_worst_pair_stands_for_the_run() {
+    let scene = Scene::new(own(6.0).hold(60.0).turn(-35.0, 3.0).hold(400.0), head_on())
+        .and(target(1500.0, 3000.0, 0.0, 3.0));
+    let judgement = judge(&scene);
+    assert_eq!(judgement.pairs.len(), 2);
+    assert_eq!(judgement.verdicts.len(), 2 * Check::COUNT);
+    assert_eq!(of(&judgement, 1, Check::Turn).status, NotApplicable);
+    assert_eq!(judgement.status(Check::Turn), Fail);
+}

@@ -1,0 +1,89 @@
+//! What the binary must know of its own making: the commit, hashes of the sources that decide a
+//! number, and the files of `campaigns/`, embedded so that it works in an empty folder.
+
+use sha2::Digest;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+/// Crates whose sources decide a number of an encounter, its verdicts or their statistics.
+const ENGINE: [&str; 7] = ["geom", "record", "planner-api", "encounter", "sim", "rules", "stats"];
+/// Crates whose sources decide what a planner of the registry orders.
+const PLANNERS: [&str; 1] = ["planners"];
+
+fn main() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let lock = fs::read(root.join("Cargo.lock")).unwrap_or_default();
+    let rustc = output(&env::var("RUSTC").unwrap_or("rustc".into()), &["--version"], &root);
+    let set = |key: &str, value: &str| println!("cargo::rustc-env=SEATRIAL_{key}={value}");
+    set("GIT_COMMIT", &output("git", &["rev-parse", "HEAD"], &root).unwrap_or("unknown".into()));
+    let changed = output("git", &["status", "--porcelain", "--untracked-files=no"], &root);
+    set("GIT_CLEAN", if changed.as_deref() == Some("") { "true" } else { "false" });
+    let rustc = rustc.unwrap_or("unknown".into());
+    set("RUSTC", &rustc);
+    set("ENGINE", &hash_sources(&root, &ENGINE, &[&lock, rustc.as_bytes()]));
+    set("PLANNERS", &hash_sources(&root, &PLANNERS, &[]));
+    set("LOCK_SHA256", &hex(&sha2::Sha256::digest(&lock)));
+    embed_campaigns(&root);
+    for path in ["crates", "campaigns", "Cargo.lock", ".git/HEAD", ".git/index"] {
+        if root.join(path).exists() {
+            println!("cargo::rerun-if-changed={}", root.join(path).display());
+        }
+    }
+}
+
+fn output(program: &str, arguments: &[&str], folder: &Path) -> Option<String> {
+    let output = Command::new(program).args(arguments).current_dir(folder).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}
+
+fn hash_sources(root: &Path, crates: &[&str], more: &[&[u8]]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    for name in crates {
+        let folder = root.join("crates").join(name);
+        for path in files(&folder.join("src"), "rs") {
+            let relative = path.strip_prefix(&folder).unwrap_or(&path);
+            hasher.update(relative.to_string_lossy().as_bytes());
+            hasher.update(&fs::read(&path).unwrap_or_default());
+        }
+    }
+    more.iter().for_each(|bytes| {
+        hasher.update(bytes);
+    });
+    hasher.finalize().to_hex().to_string()
+}
+
+/// The files below a folder with this ending, sorted.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            found.extend(files(&path, ending));
+        } else if path.extension().is_some_and(|e| e == ending) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn embed_campaigns(root: &Path) {
+    let folder = root.join("campaigns");
+    let mut code = String::from("pub(crate) const FILES: &[(&str, &str)] = &[\n");
+    for path in files(&folder, "toml") {
+        let name = path.strip_prefix(&folder).unwrap_or(&path).display().to_string();
+        let full = path.canonicalize().unwrap_or(path);
+        writeln!(code, "    ({name:?}, include_str!({:?})),", full.display().to_string())
+            .expect("writing to a string");
+    }
+    code.push_str("];\n");
+    let target = Path::new(&env::var("OUT_DIR").expect("cargo sets OUT_DIR")).join("campaigns.rs");
+    fs::write(target, code).expect("OUT_DIR can be written");
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

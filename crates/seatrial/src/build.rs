@@ -1,0 +1,16 @@
+//! What this binary knows of its own making; the values come from the build script.
+
+use campaign::plan::Build;
+
+/// Version, commit and hashes.
+pub(crate) fn build() -> Build {
+    Build {
+        tool_version: env!("CARGO_PKG_VERSION").to_owned(),
+        git_commit: env!("SEATRIAL_GIT_COMMIT").to_owned(),
+        git_clean: env!("SEATRIAL_GIT_CLEAN") == "true",
+        engine: env!("SEATRIAL_ENGINE").to_owned(),
+        planners: env!("SEATRIAL_PLANNERS").to_owned(),
+        cargo_lock_sha256: env!("SEATRIAL_LOCK_SHA256").to_owned(),
+        rustc: env!("SEATRIAL_RUSTC").to_owned(),
+    }
+}

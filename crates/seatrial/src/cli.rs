@@ -1,0 +1,168 @@
+//! The command line: a contract, scripts are written against it.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done; collisions found are a result, not an error
+  1  a check or comparison that was asked for has failed
+  2  usage, campaign or input error
+  3  inconclusive or incomplete; after Ctrl-C, go on with --resume
+  4  harness fault: nothing that was written may be trusted";
+
+/// A million sea trials for a collision-avoidance planner, before its first one.
+///
+/// Runs randomized encounters against a planner, judges every one against the collision
+/// regulations, and reports rates with exact bounds. The same seed gives the same encounters and
+/// the same bits on any number of threads.
+#[derive(Debug, Parser)]
+#[command(name = "seatrial", version, after_help = EXIT_CODES, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a campaign and write its report
+    ///
+    /// FILE is a campaign file, or the name of one that is built in; `quick` is the default.
+    #[command(after_help = EXIT_CODES)]
+    Campaign(CampaignArgs),
+    /// Run one encounter of a result again, alone, compare its digest and draw it
+    #[command(after_help = EXIT_CODES)]
+    Replay {
+        /// Folder of a result
+        dir: PathBuf,
+        /// The encounter, such as head_on/001234
+        encounter_id: String,
+    },
+    /// List the planners, a line each
+    Planners,
+    /// Check a file of planner vectors, and print the largest error of each column
+    #[command(after_help = EXIT_CODES)]
+    Vectors {
+        /// A CSV file in the format of the seed planner's test vectors
+        file: PathBuf,
+    },
+    /// Check a file of exact binomial bounds, and print the largest relative error
+    #[command(after_help = EXIT_CODES)]
+    Intervals {
+        /// A CSV file with the columns k, n, one_sided_alpha, lower, upper
+        file: PathBuf,
+    },
+    /// Several planners on the same encounters, side by side
+    #[command(after_help = EXIT_CODES)]
+    Compare {
+        /// Planners of the registry
+        #[arg(required = true, num_args = 2..)]
+        planners: Vec<String>,
+        #[command(flatten)]
+        common: CompareArgs,
+    },
+    /// The engine process of a campaign; the supervisor starts it
+    #[command(hide = true)]
+    Engine {
+        /// Folder of the result
+        dir: PathBuf,
+        /// Worker threads
+        #[arg(long, default_value_t = 1)]
+        threads: usize,
+        /// Run this encounter alone and store nothing: index of the stratum, slash, number
+        #[arg(long)]
+        suspect: Option<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    /// A campaign file, or the name of one that is built in
+    #[arg(long, value_name = "FILE|NAME", default_value = "quick")]
+    pub(crate) campaign: String,
+    /// Encounters of each stratum, instead of the campaign's
+    #[arg(long, value_name = "N")]
+    pub(crate) encounters: Option<u64>,
+    /// Seed, instead of the campaign's
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Worker threads [default: one for each processor]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// Output folder [default: reports/<campaign>-compare]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Go on with a partial result
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Replace a result that is there
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct CampaignArgs {
+    /// A campaign file, or the name of one that is built in
+    #[arg(value_name = "FILE|NAME", default_value = "quick")]
+    pub(crate) campaign: String,
+    /// A planner of the registry, instead of the campaign's; may be given several times
+    #[arg(long = "planner", value_name = "NAME")]
+    pub(crate) planners: Vec<String>,
+    /// Rule set, instead of the campaign's
+    #[arg(long, value_name = "NAME")]
+    pub(crate) rules: Option<String>,
+    /// DNV traffic situations (JSON): a file or a folder [with the campaign `situations`]
+    #[arg(long, value_name = "PATH")]
+    pub(crate) situations: Option<PathBuf>,
+    /// Encounters of each stratum, instead of the campaign's
+    #[arg(long, value_name = "N")]
+    pub(crate) encounters: Option<u64>,
+    /// Seed, instead of the campaign's
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Worker threads [default: one for each processor]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// Run only this part of the campaign; parts count from 1
+    #[arg(long, value_name = "I/N", value_parser = parse_shard)]
+    pub(crate) shard: Option<(u64, u64)>,
+    /// Output folder [default: reports/<campaign>-<planner>]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Go on with a partial result
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Replace a result that is there
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// No progress and no table
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+fn parse_shard(text: &str) -> Result<(u64, u64), String> {
+    let wrong = || format!("`{text}` is no shard; one looks like 3/1000 and counts from 1");
+    let (index, of) = text.split_once('/').ok_or_else(wrong)?;
+    let index: u64 = index.parse().map_err(|_| wrong())?;
+    let of: u64 = of.parse().map_err(|_| wrong())?;
+    if index == 0 || index > of { Err(wrong()) } else { Ok((index, of)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn shards_count_from_one() {
+        assert_eq!(parse_shard("3/1000"), Ok((3, 1000)));
+        for text in ["0/3", "4/3", "3", "a/b", "1/0"] {
+            assert!(parse_shard(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! `campaign`: the main job.
+
+use super::finish;
+use crate::cli::CampaignArgs;
+use crate::exit::Ended;
+use crate::progress::Progress;
+use crate::timing::Stopwatch;
+use crate::{build, embedded};
+use campaign::folder::Opened;
+use campaign::supervisor::Supervisor;
+use campaign::{CampaignFile, Error, Folder, Overrides, Plan, run_parts};
+use planner_api::Registry;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+pub(super) fn run(args: &CampaignArgs, registry: Registry) -> Result<Ended, Error> {
+    let (plans, registry) = plans(args, registry)?;
+    let out = args.out.clone().unwrap_or_else(|| default_folder(&plans));
+    let several = plans.len() > 1;
+    let threads = threads(args.threads)?;
+    let interrupted = on_interrupt()?;
+    let mut results = Vec::new();
+    for plan in &plans {
+        let folder = if several { out.join(folder_name(&plan.planner.name)) } else { out.clone() };
+        let job = Job { plan, registry: &registry, threads, interrupted: &interrupted, args };
+        if let Some(result) = job.run(&folder)? {
+            results.push(result);
+        }
+    }
+    if several && args.shard.is_none() {
+        finish::comparison(&out, &results, args.quiet)?;
+    }
+    Ok(Ended::Done)
+}
+
+/// One plan for each planner that was asked for.
+fn plans(args: &CampaignArgs, registry: Registry) -> Result<(Vec<Plan>, Registry), Error> {
+    // --situations alone means the built-in campaign that takes situations over
+    let name = match (&args.situations, args.campaign.as_str()) {
+        (Some(_), "quick") => "situations",
+        (_, name) => name,
+    };
+    let file = CampaignFile::parse(&embedded::campaign_text(name)?, name)?;
+    let named = if args.planners.is_empty() { &file.planners } else { &args.planners };
+    let registry = super::with_outside(registry, named)?;
+    let overrides = Overrides {
+        planners: args.planners.clone(),
+        rules: args.rules.clone(),
+        encounters: args.encounters,
+        seed: args.seed,
+    };
+    let plans = file.resolve(
+        &overrides,
+        args.situations.as_deref(),
+        &registry,
+        &embedded::rules_text,
+        &build::build(),
+    )?;
+    Ok((plans, registry))
+}
+
+fn default_folder(plans: &[Plan]) -> PathBuf {
+    let name = match plans {
+        [one] => format!("{}-{}", one.campaign, folder_name(&one.planner.name)),
+        several => format!("{}-compare", several.first().map_or("", |plan| &plan.campaign)),
+    };
+    Path::new("reports").join(name)
+}
+
+/// A planner's name as the name of a folder: `exec:./my_planner --flag` has more than letters.
+fn folder_name(planner: &str) -> String {
+    let safe = |c: char| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+    planner.chars().map(safe).collect()
+}
+
+fn threads(asked: Option<usize>) -> Result<usize, Error> {
+    match asked {
+        Some(0) => Err(Error::input("--threads 0 runs nothing; ask for at least 1")),
+        Some(n) => Ok(n),
+        None => Ok(std::thread::available_parallelism().map_or(1, usize::from)),
+    }
+}
+
+fn on_interrupt() -> Result<Arc<AtomicBool>, Error> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        .map_err(|e| Error::Fault(format!("failed to handle Ctrl-C: {e}")))?;
+    Ok(interrupted)
+}
+
+/// One planner's part of the work.
+struct Job<'a> {
+    plan: &'a Plan,
+    registry: &'a Registry,
+    threads: usize,
+    interrupted: &'a AtomicBool,
+    args: &'a CampaignArgs,
+}
+
+impl Job<'_> {
+    /// Runs, finishes, and prints; nothing to show after one shard of several.
+    fn run(&self, folder: &Path) -> Result<Option<finish::PlannerResult>, Error> {
+        let plan = self.plan;
+        let quiet = self.args.quiet;
+        if !quiet {
+            println!(
+                "campaign {}, planner {}, seed {}, {} encounters",
+                plan.campaign,
+                plan.planner.name,
+                plan.seed,
+                plan.encounters()
+            );
+        }
+        let folder = match Folder::open(folder, plan, self.args.resume, self.args.force)? {
+            Opened::Ready(folder) => folder,
+            Opened::Finished(folder) => {
+                if !quiet {
+                    println!("finished already: {}", folder.path().join("report.html").display());
+                }
+                return finish::read_back(plan, &folder).map(Some);
+            }
+        };
+        let mut stopwatch = Stopwatch::start();
+        let shard = self.args.shard.unwrap_or((1, 1));
+        self.run_parts(&folder, shard)?;
+        stopwatch.lap("run");
+        if shard.1 > 1 {
+            if !quiet {
+                println!("part {}/{} is done in {}", shard.0, shard.1, folder.parts().display());
+            }
+            return Ok(None);
+        }
+        finish::finish(plan, self.registry, &folder, &mut stopwatch, (self.threads, quiet))
+            .map(Some)
+    }
+
+    fn run_parts(&self, folder: &Folder, shard: (u64, u64)) -> Result<(), Error> {
+        let total: u64 = campaign::pipeline::shard_keys(self.plan, shard)
+            .iter()
+            .map(|key| {
+                let range = key.range(self.plan.encounters_per_stratum);
+                range.end - range.start
+            })
+            .sum();
+        let progress = Progress::new(&self.plan.planner.name, total, self.args.quiet);
+        let supervisor = Supervisor {
+            program: std::env::current_exe().map_err(Error::io("find", Path::new("seatrial")))?,
+            threads: self.threads,
+            interrupted: self.interrupted,
+            progress: &|encounters| progress.add(encounters),
+        };
+        let ended = run_parts(self.plan, folder, shard, &supervisor);
+        progress.end();
+        ended
+    }
+}

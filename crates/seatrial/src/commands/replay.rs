@@ -1,0 +1,47 @@
+//! `replay`: one encounter of a result again, alone, and whether it gives the same bits.
+
+use crate::exit::Ended;
+use campaign::{Error, Folder, worker};
+use planner_api::Registry;
+use record::{EncounterId, Status};
+use std::fs;
+use std::path::Path;
+
+pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<Ended, Error> {
+    let id: EncounterId =
+        encounter_id.parse().map_err(|e: record::id::ParseIdError| Error::input(e.to_string()))?;
+    let (folder, plan) = Folder::existing(dir)?;
+    let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
+    campaign::engine::quiet_planner_panics();
+    let table = folder.path().join("runs.parquet");
+    let stored = table::find(&table, &id)
+        .map_err(|e| Error::input(format!("failed to {e}")))?
+        .ok_or_else(|| Error::input(format!("{} has no row {id}", table.display())))?;
+    if matches!(stored.outcome, record::Outcome::PlannerHung | record::Outcome::PlannerCrashed) {
+        println!(
+            "{id}: {}; the planner takes its process with it, so it is not run here again",
+            stored.outcome.name()
+        );
+        return Ok(Ended::Done);
+    }
+    let run = worker::run_alone(&plan, &registry, &id)?;
+    println!("{id}: {}, digest {}", run.row.outcome.name(), run.row.digest);
+    for verdict in &run.judgement.verdicts {
+        if matches!(verdict.status, Status::Fail | Status::Warn) {
+            let sentence = verdict.sentence.as_deref().unwrap_or(&verdict.detail);
+            println!("  {} {}: {sentence}", verdict.status.name(), verdict.check.title());
+        }
+    }
+    let pictures = folder.path().join("replay");
+    fs::create_dir_all(&pictures).map_err(Error::io("make", &pictures))?;
+    let picture = pictures.join(format!("{}.svg", id.file_stem()));
+    let case = super::finish::case(run);
+    report::draw_case(&picture, &case).map_err(|e| Error::Fault(format!("failed to {e}")))?;
+    println!("  picture: {}", picture.display());
+    if case.row.digest == stored.digest {
+        println!("  the same bits as stored");
+        return Ok(Ended::Done);
+    }
+    println!("  NOT the same bits: stored {}", stored.digest);
+    Ok(Ended::Failed)
+}

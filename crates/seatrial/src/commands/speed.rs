@@ -1,0 +1,1 @@
+//! `speed`: encounters per second, the floor, and the share of each stage.

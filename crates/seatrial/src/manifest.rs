@@ -1,0 +1,55 @@
+//! `manifest.json`: what made a result, the plan it followed, and hashes of every other file.
+
+use campaign::{Error, Finished, Plan};
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+#[derive(Serialize)]
+struct Manifest<'a> {
+    schema: u32,
+    tool: &'static str,
+    build: &'a campaign::plan::Build,
+    plan_hash: String,
+    root_digest: &'a str,
+    encounters: u64,
+    files_sha256: BTreeMap<String, String>,
+    plan: serde_json::Value,
+}
+
+/// Written last: a folder that has one is finished.
+pub(crate) fn write(folder: &Path, plan: &Plan, finished: &Finished) -> Result<(), Error> {
+    let manifest = Manifest {
+        schema: 1,
+        tool: "seatrial",
+        build: &plan.build,
+        plan_hash: plan.hash()?,
+        root_digest: &finished.root_digest,
+        encounters: finished.encounters,
+        files_sha256: hashes(folder)?,
+        plan: plan.json()?,
+    };
+    let mut text = serde_json::to_string_pretty(&manifest)
+        .map_err(|e| Error::Fault(format!("failed to encode the manifest: {e}")))?;
+    text.push('\n');
+    crate::files::write(&folder.join("manifest.json"), text.as_bytes())
+}
+
+/// SHA-256 of every file of a result but the manifest itself, wall-clock facts, and what only a
+/// partial result needs.
+fn hashes(folder: &Path) -> Result<BTreeMap<String, String>, Error> {
+    const LEFT_OUT: [&str; 4] = ["manifest.json", "timing.json", "state", "replay"];
+    let mut found = BTreeMap::new();
+    for path in crate::files::below(folder)? {
+        let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
+        if LEFT_OUT.iter().any(|out| name == *out || name.starts_with(&format!("{out}/"))) {
+            continue;
+        }
+        let bytes = fs::read(&path).map_err(Error::io("read", &path))?;
+        let hex = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        found.insert(name, hex);
+    }
+    Ok(found)
+}

@@ -1,0 +1,193 @@
+//! Whether an encounter can be run at all.
+
+use crate::approach::{Approach, Hulls};
+use crate::ship::Ship;
+use crate::vessel::{known_models, limits};
+use geom::{HullOutline, Vec2};
+use record::{Encounter, Intent, Motion, Vessel, Waypoint};
+
+/// What is wrong with an encounter.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SetupError {
+    /// No parameter set has this name.
+    #[error("{ship} is a `{name}`, which is no known model; there are {known}")]
+    UnknownModel {
+        /// Which ship.
+        ship: String,
+        /// The name.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// A number that is not finite or not in its range.
+    #[error("{what} is {value}; it must be {range}")]
+    OutOfRange {
+        /// Which number.
+        what: String,
+        /// Its value.
+        value: f64,
+        /// Where it must lie.
+        range: &'static str,
+    },
+    /// Nothing to meet.
+    #[error("there is no target and no hazard")]
+    NothingToMeet,
+    /// More targets than an index can name.
+    #[error("there are {0} targets; at most 255 can be told apart")]
+    TooManyTargets(usize),
+    /// Own ship has nowhere to go.
+    #[error("own ship has no waypoint; give her a goal")]
+    NoRoute,
+    /// The beat is not a whole number of steps.
+    #[error("the step of {step_s} s does not divide the beat of {beat_s} s")]
+    StepDoesNotDivideBeat {
+        /// Step.
+        step_s: f64,
+        /// Beat.
+        beat_s: f64,
+    },
+    /// Hulls overlap at the start.
+    #[error("own ship and target {0} overlap at the start")]
+    Overlap(usize),
+    /// A target that should run a planner, which this build of the world cannot give it.
+    #[error("target {target} runs the planner `{planner}`; targets under a planner are not wired")]
+    PlannerTarget {
+        /// Index.
+        target: usize,
+        /// Name.
+        planner: String,
+    },
+    /// Hazards, which the world does not know yet.
+    #[error("there are {0} hazards; hazards are not wired")]
+    Hazards(usize),
+}
+
+/// Checks an encounter; [`crate::run`] gives `Outcome::Invalid` for what fails here.
+pub fn check(encounter: &Encounter) -> Result<(), SetupError> {
+    let Encounter { own, targets, hazards, run, .. } = encounter;
+    if targets.is_empty() && hazards.is_empty() {
+        return Err(SetupError::NothingToMeet);
+    }
+    if targets.len() > usize::from(u8::MAX) {
+        return Err(SetupError::TooManyTargets(targets.len()));
+    }
+    if !hazards.is_empty() {
+        return Err(SetupError::Hazards(hazards.len()));
+    }
+    if own.route.is_empty() {
+        return Err(SetupError::NoRoute);
+    }
+    positive("the step", run.step_s)?;
+    positive("the beat", run.beat_s)?;
+    positive("the longest duration", run.duration_s_max)?;
+    not_negative("the safety radius", encounter.safety_radius_m)?;
+    not_negative("the cruise speed", own.cruise_mps)?;
+    finite("the current", encounter.weather.current_mps)?;
+    let steps = run.beat_s / run.step_s;
+    if (steps - steps.round()).abs() > 1e-9 * steps || steps.round() < 1.0 {
+        let (step_s, beat_s) = (run.step_s, run.beat_s);
+        return Err(SetupError::StepDoesNotDivideBeat { step_s, beat_s });
+    }
+    check_ship("own ship", &own.hull, &own.vessel, &own.start)?;
+    check_route("own ship", &own.route)?;
+    for (index, target) in targets.iter().enumerate() {
+        let name = format!("target {index}");
+        check_ship(&name, &target.hull, &target.vessel, &target.start)?;
+        check_intent(index, &name, &target.intent)?;
+    }
+    check_apart(encounter)
+}
+
+fn check_ship(
+    ship: &str,
+    hull: &HullOutline,
+    vessel: &Vessel,
+    start: &Motion,
+) -> Result<(), SetupError> {
+    positive(&format!("the length of {ship}"), hull.length_m)?;
+    positive(&format!("the beam of {ship}"), hull.beam_m)?;
+    let reference = Vec2::new(hull.midships_forward_m, hull.midships_starboard_m);
+    finite(&format!("the reference point of {ship}"), reference)?;
+    finite(&format!("the position of {ship}"), start.position_m)?;
+    finite(&format!("the heading of {ship}"), Vec2::new(start.psi_rad, 0.0))?;
+    not_negative(&format!("the speed of {ship}"), start.speed_mps)?;
+    if let Vessel::Kinematic { yaw_rate_radps_max, acceleration_mps2_max, speed_mps_max } = vessel {
+        positive(&format!("the turn rate of {ship}"), *yaw_rate_radps_max)?;
+        positive(&format!("the acceleration of {ship}"), *acceleration_mps2_max)?;
+        not_negative(&format!("the largest speed of {ship}"), *speed_mps_max)?;
+    }
+    let Some(limits) = limits(vessel) else {
+        let Vessel::Model(name) = vessel else { unreachable!("kinematic vessels have limits") };
+        let known: Vec<&str> = known_models().collect();
+        let (ship, name, known) = (ship.to_owned(), name.clone(), known.join(", "));
+        return Err(SetupError::UnknownModel { ship, name, known });
+    };
+    // room for the conversion from knots
+    if start.speed_mps > limits.speed_mps_max * (1.0 + 1e-9) {
+        let what = format!("the speed of {ship}");
+        let range = "at most the largest speed of her model";
+        return Err(SetupError::OutOfRange { what, value: start.speed_mps, range });
+    }
+    Ok(())
+}
+
+fn check_intent(index: usize, name: &str, intent: &Intent) -> Result<(), SetupError> {
+    match intent {
+        Intent::HoldCourse => Ok(()),
+        Intent::Track(waypoints) => check_route(name, waypoints),
+        Intent::Alter { at_s, course_rad, speed_mps } => {
+            finite(&format!("the alteration of {name}"), Vec2::new(*at_s, *course_rad))?;
+            not_negative(&format!("the new speed of {name}"), *speed_mps)
+        }
+        Intent::Planner(planner) => {
+            Err(SetupError::PlannerTarget { target: index, planner: planner.clone() })
+        }
+    }
+}
+
+fn check_route(ship: &str, route: &[Waypoint]) -> Result<(), SetupError> {
+    for waypoint in route {
+        finite(&format!("a waypoint of {ship}"), waypoint.position_m)?;
+        if let Some(speed_mps) = waypoint.speed_mps {
+            not_negative(&format!("the speed at a waypoint of {ship}"), speed_mps)?;
+        }
+    }
+    Ok(())
+}
+
+fn check_apart(encounter: &Encounter) -> Result<(), SetupError> {
+    let current_mps = encounter.weather.current_mps;
+    let ship = |hull, vessel, start| {
+        Ship::new(hull, vessel, start, current_mps).expect("the models were checked before")
+    };
+    let own = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
+    for (index, target) in encounter.targets.iter().enumerate() {
+        let target = ship(target.hull, &target.vessel, &target.start);
+        let hulls = Hulls { own: &own.hull, target: &target.hull };
+        if Approach::new(1.0, hulls, &own.pose, &target.pose).overlaps() {
+            return Err(SetupError::Overlap(index));
+        }
+    }
+    Ok(())
+}
+
+fn out_of_range(what: &str, value: f64, range: &'static str) -> SetupError {
+    SetupError::OutOfRange { what: what.to_owned(), value, range }
+}
+
+fn positive(what: &str, value: f64) -> Result<(), SetupError> {
+    let ok = value.is_finite() && value > 0.0;
+    if ok { Ok(()) } else { Err(out_of_range(what, value, "finite and above 0")) }
+}
+
+fn not_negative(what: &str, value: f64) -> Result<(), SetupError> {
+    let ok = value.is_finite() && value >= 0.0;
+    if ok { Ok(()) } else { Err(out_of_range(what, value, "finite and at least 0")) }
+}
+
+fn finite(what: &str, value: Vec2) -> Result<(), SetupError> {
+    match [value.x, value.y].into_iter().find(|v| !v.is_finite()) {
+        Some(value) => Err(out_of_range(what, value, "finite")),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,132 @@
+//! The encounter without avoidance: own ship on her route at cruise speed, targets by their
+//! scripts, no contact. It fixes onset of risk, class and role, the same for every planner.
+//!
+//! Ships do not react to one another here, so each goes from beat to beat on her own: in closed
+//! form while nothing changes, by her model in steps otherwise.
+
+use crate::approach::{Approach, Hulls, Interval};
+use crate::check::check;
+use crate::ending::{Ending, Other};
+use crate::intent::{Route, Script, turning_radius_m};
+use crate::recorder;
+use crate::ship::Ship;
+use record::{Encounter, Nominal, ShipTrack};
+
+/// The nominal track of an encounter; `None` where [`check`] refuses it.
+///
+/// It ends when own ship is past and clear on it (and at her goal, if the run is to end there),
+/// or at the longest duration; that does not depend on any planner.
+pub fn nominal(encounter: &Encounter) -> Option<Nominal> {
+    check(encounter).ok()?;
+    let current_mps = encounter.weather.current_mps;
+    let ship = |hull, vessel, start| {
+        Ship::new(hull, vessel, start, current_mps).expect("the encounter was checked")
+    };
+    let own_ship = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
+    let route = Route::new(&own_ship, &encounter.own.route, encounter.own.cruise_mps);
+    let room = samples(encounter);
+    let own = Sailor::new(own_ship, Script::Follow(route), room);
+    let targets = encounter
+        .targets
+        .iter()
+        .map(|target| {
+            let ship = ship(target.hull, &target.vessel, &target.start);
+            let script = Script::of(&target.intent, &ship, target.start.speed_mps)
+                .expect("the encounter was checked: no target runs a planner");
+            Sailor::new(ship, script, room)
+        })
+        .collect();
+    Some(sail(encounter, own, targets))
+}
+
+fn samples(encounter: &Encounter) -> usize {
+    (encounter.run.duration_s_max / encounter.run.beat_s) as usize + 2
+}
+
+/// A ship with her script and her track.
+struct Sailor {
+    ship: Ship,
+    script: Script,
+    track: ShipTrack,
+}
+
+impl Sailor {
+    fn new(mut ship: Ship, script: Script, room: usize) -> Self {
+        ship.closed_form = true;
+        let track = recorder::track_of(&ship, room);
+        Self { ship, script, track }
+    }
+
+    fn sample(&mut self) {
+        recorder::sample(&mut self.track, &self.ship.state, self.ship.pose.velocity_mps);
+    }
+
+    /// Goes through the beat that starts at step `step`.
+    fn advance(&mut self, step: u64, steps_a_beat: u64, step_s: f64) {
+        self.script.steer(&mut self.ship, step as f64 * step_s);
+        let before = self.ship.pose;
+        if self.ship.is_straight() {
+            let beat_s = steps_a_beat as f64 * step_s;
+            self.ship.advance((step + steps_a_beat) as f64 * step_s, beat_s);
+        } else {
+            for k in step..step + steps_a_beat {
+                self.ship.advance((k + 1) as f64 * step_s, step_s);
+            }
+        }
+        self.ship.before = before;
+    }
+}
+
+fn sail(encounter: &Encounter, mut own: Sailor, mut targets: Vec<Sailor>) -> Nominal {
+    let run = encounter.run;
+    let steps_a_beat = (run.beat_s / run.step_s).round() as u64;
+    let goal_m = encounter.own.route.last().map_or(own.ship.pose.position_m, |w| w.position_m);
+    let mut ending = Ending::new(encounter, turning_radius_m(&own.ship));
+    // no hull geometry on the way: `settle` needs little of it once the track is known
+    let mut approaches: Vec<Approach> = targets
+        .iter()
+        .map(|t| Approach::new(f64::NEG_INFINITY, hulls(&own, t), &own.ship.pose, &t.ship.pose))
+        .collect();
+    let mut bounds_m: Vec<Vec<f64>> =
+        targets.iter().map(|_| Vec::with_capacity(samples(encounter))).collect();
+    let mut step = 0;
+    loop {
+        let t_s = step as f64 * run.step_s;
+        own.sample();
+        targets.iter_mut().for_each(Sailor::sample);
+        for (bounds_m, approach) in bounds_m.iter_mut().zip(&mut approaches) {
+            bounds_m.push(approach.take_interval_m());
+        }
+        let others = targets.iter().map(|t| Other {
+            pose: &t.ship.pose,
+            radii_m: own.ship.hull.radius_m + t.ship.hull.radius_m,
+        });
+        let to_goal_m = (goal_m - own.ship.pose.position_m).norm();
+        if ending.is_over(t_s, &own.ship.pose, others, to_goal_m) || t_s >= run.duration_s_max {
+            break;
+        }
+        own.advance(step, steps_a_beat, run.step_s);
+        for (target, approach) in targets.iter_mut().zip(&mut approaches) {
+            target.advance(step, steps_a_beat, run.step_s);
+            let interval = Interval {
+                start_s: t_s,
+                dt_s: run.beat_s,
+                own: [&own.ship.before, &own.ship.pose],
+                target: [&target.ship.before, &target.ship.pose],
+            };
+            approach.advance(&interval, hulls(&own, target));
+        }
+        step += steps_a_beat;
+    }
+    let minima =
+        targets.iter().zip(&mut approaches).zip(&bounds_m).map(|((t, approach), bounds)| {
+            let poses = |k: usize| [recorder::pose(&own.track, k), recorder::pose(&t.track, k)];
+            approach.settle(bounds, hulls(&own, t), poses, run.beat_s)
+        });
+    let minima = minima.collect();
+    Nominal { own: own.track, targets: targets.into_iter().map(|t| t.track).collect(), minima }
+}
+
+fn hulls<'a>(own: &'a Sailor, target: &'a Sailor) -> Hulls<'a> {
+    Hulls { own: &own.ship.hull, target: &target.ship.hull }
+}

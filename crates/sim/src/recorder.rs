@@ -1,0 +1,41 @@
+//! Samples of a ship, one a beat.
+
+use crate::pose::Pose;
+use crate::ship::Ship;
+use crate::vessel::State;
+use geom::Vec2;
+use record::{ShipTrack, trace};
+
+/// An empty track of a ship with room for `samples`.
+pub fn track_of(ship: &Ship, samples: usize) -> ShipTrack {
+    let limits = ship.model.limits();
+    let who = trace::Ship {
+        hull: ship.outline,
+        yaw_rate_radps_max: limits.yaw_rate_radps_max,
+        speed_mps_max: limits.speed_mps_max,
+        steerage_mps: limits.steerage_mps,
+    };
+    ShipTrack::with_capacity(who, samples)
+}
+
+/// Adds one sample; `velocity_mps` is over ground.
+#[inline]
+pub fn sample(track: &mut ShipTrack, state: &State, velocity_mps: Vec2) {
+    track.north_m.push(state.position_m.x);
+    track.east_m.push(state.position_m.y);
+    track.psi_rad.push(state.psi_rad);
+    track.vel_north_mps.push(velocity_mps.x);
+    track.vel_east_mps.push(velocity_mps.y);
+    track.stw_mps.push(state.surge_mps);
+    track.yaw_rate_radps.push(state.yaw_rate_radps);
+}
+
+/// The pose at sample `k` of a track.
+pub fn pose(track: &ShipTrack, k: usize) -> Pose {
+    Pose {
+        position_m: track.position_m(k),
+        velocity_mps: track.velocity_mps(k),
+        heading: geom::unit(track.psi_rad[k]),
+        yaw_rate_radps: track.yaw_rate_radps[k],
+    }
+}

@@ -1,0 +1,293 @@
+//! Surge, sway and yaw of a displacement hull with its autopilot.
+//!
+//! `M nu' + C(nu) nu + D(nu) nu = tau` in the body frame, relative to the water (Fossen 2011,
+//! Handbook of Marine Craft Hydrodynamics and Motion Control, section 6.5: with a constant
+//! irrotational current the relative velocity obeys the same equation). M holds rigid body and
+//! added mass; C follows from M, so that it does no work. A rudder or steered thruster at
+//! `rudder_arm_m` gives moment and side force together.
+//!
+//! Integrated by the classical fourth-order Runge-Kutta rule with the autopilot inside the
+//! derivative: a zero-order hold would add a delay of half a step to every manoeuvre.
+
+use super::{Helm, Limits, State};
+use geom::{Vec2, math};
+
+/// A parameter set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThreeDof {
+    /// Displacement, kg: the mass in a contact.
+    pub displacement_kg: f64,
+    /// Moment of inertia of the rigid body, kg m^2: likewise.
+    pub inertia_kgm2: f64,
+    /// Rigid body and added mass.
+    pub mass: MassMatrix,
+    /// Damping in surge, sway and yaw.
+    pub damping: [Damping; 3],
+    /// Thrust and rudder.
+    pub propulsion: Propulsion,
+    /// Gains.
+    pub autopilot: Autopilot,
+    /// Declared largest yaw rate, rad/s; the autopilot asks for no more.
+    pub yaw_rate_radps_max: f64,
+    /// Declared largest speed, m/s.
+    pub speed_mps_max: f64,
+    /// Slowest speed at which she steers, m/s, where her source declares one.
+    pub steerage_mps: Option<f64>,
+}
+
+/// Rigid body plus added mass, symmetric: kg, kg m, kg m^2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassMatrix {
+    /// Surge.
+    pub surge: f64,
+    /// Sway.
+    pub sway: f64,
+    /// Coupling of sway and yaw.
+    pub sway_yaw: f64,
+    /// Yaw.
+    pub yaw: f64,
+}
+
+/// Damping force (N) or moment (N m) along one axis: `(linear + quadratic |x| + cubic x^2) x`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damping {
+    /// First power.
+    pub linear: f64,
+    /// Second.
+    pub quadratic: f64,
+    /// Third.
+    pub cubic: f64,
+}
+
+/// Actuators.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Propulsion {
+    /// Largest thrust ahead, N.
+    pub thrust_n_max: f64,
+    /// Largest thrust astern, N, as a positive number.
+    pub astern_n_max: f64,
+    /// Largest side force of the rudder or steered thruster, N.
+    pub side_n_max: f64,
+    /// Where it acts, metres forward of the origin (negative: aft).
+    pub rudder_arm_m: f64,
+}
+
+/// Gains of the course and speed autopilot, 1/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Autopilot {
+    /// Ordered yaw rate for each radian of course error.
+    pub course: f64,
+    /// Yaw acceleration for each rad/s of yaw rate error.
+    pub yaw_rate: f64,
+    /// Acceleration for each m/s of speed error.
+    pub speed: f64,
+}
+
+/// Speed below which the drift angle loses its meaning and the autopilot steers by heading, m/s.
+const DRIFT_MPS: f64 = 0.5;
+
+/// Body velocities or their derivatives: surge, sway, yaw.
+type Nu = [f64; 3];
+
+impl MassMatrix {
+    fn inverse(&self) -> Self {
+        let determinant = self.sway * self.yaw - self.sway_yaw * self.sway_yaw;
+        Self {
+            surge: 1.0 / self.surge,
+            sway: self.yaw / determinant,
+            sway_yaw: -self.sway_yaw / determinant,
+            yaw: self.sway / determinant,
+        }
+    }
+}
+
+impl Damping {
+    #[inline]
+    fn force(&self, x: f64) -> f64 {
+        (self.linear + self.quadratic * x.abs() + self.cubic * (x * x)) * x
+    }
+}
+
+impl ThreeDof {
+    /// What the model declares. The largest speed is the declared one or, if that is less, the
+    /// speed at which full thrust meets the resistance.
+    pub fn limits(&self) -> Limits {
+        let thrust_n = self.propulsion.thrust_n_max.min(self.propulsion.astern_n_max);
+        Limits {
+            yaw_rate_radps_max: self.yaw_rate_radps_max,
+            speed_mps_max: self.speed_mps_max.min(self.speed_at_full_thrust_mps()),
+            acceleration_mps2_max: thrust_n / self.mass.surge,
+            steerage_mps: self.steerage_mps,
+        }
+    }
+
+    /// Speed at which full thrust ahead meets the resistance, m/s, by bisection.
+    fn speed_at_full_thrust_mps(&self) -> f64 {
+        let (mut low, mut high) = (0.0, 100.0);
+        for _ in 0..64 {
+            let middle = 0.5 * (low + high);
+            if self.damping[0].force(middle) < self.propulsion.thrust_n_max {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    /// Moves through `dt_s` seconds.
+    pub fn step(&self, state: &State, helm: &Helm, current_mps: Vec2, dt_s: f64) -> State {
+        self.integrate(state, current_mps, dt_s, |nu, heading| self.autopilot_n(nu, heading, helm))
+    }
+
+    /// Moves through `dt_s` seconds with engine and rudder off.
+    pub fn coast(&self, state: &State, current_mps: Vec2, dt_s: f64) -> State {
+        self.integrate(state, current_mps, dt_s, |_, _| (0.0, 0.0))
+    }
+
+    /// Kinetic energy relative to the water, added mass included, J.
+    pub fn kinetic_energy_j(&self, state: &State) -> f64 {
+        let (u, v, r) = (state.surge_mps, state.sway_mps, state.yaw_rate_radps);
+        let m = &self.mass;
+        0.5 * (m.surge * u * u + m.sway * v * v + 2.0 * m.sway_yaw * v * r + m.yaw * r * r)
+    }
+
+    /// One Runge-Kutta step under thrust and side force from `control(nu, heading)`.
+    #[inline]
+    fn integrate(
+        &self,
+        state: &State,
+        current_mps: Vec2,
+        dt_s: f64,
+        control: impl Fn(&Nu, Vec2) -> (f64, f64),
+    ) -> State {
+        let start = [state.surge_mps, state.sway_mps, state.yaw_rate_radps];
+        let inverse = self.mass.inverse();
+        let (mut nu, mut heading) = (start, state.heading);
+        let (mut nu_sum, mut path_sum) = ([0.0; 3], Vec2::zeros());
+        let mut turn_sum_radps = 0.0;
+        for (share, reach) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
+            let (thrust_n, side_n) = control(&nu, heading);
+            let rate = self.acceleration(&nu, thrust_n, side_n, &inverse);
+            let [u, v, r] = nu;
+            path_sum.x += share * (heading.x * u - heading.y * v);
+            path_sum.y += share * (heading.y * u + heading.x * v);
+            turn_sum_radps += share * r;
+            for axis in 0..3 {
+                nu_sum[axis] += share * rate[axis];
+                nu[axis] = start[axis] + reach * dt_s * rate[axis];
+            }
+            if reach > 0.0 {
+                heading = turned(state.heading, reach * dt_s * r);
+            }
+        }
+        let sixth_s = dt_s / 6.0;
+        let psi_rad = geom::wrap(state.psi_rad + sixth_s * turn_sum_radps);
+        State {
+            position_m: state.position_m + (path_sum * sixth_s + current_mps * dt_s),
+            psi_rad,
+            heading: geom::unit(psi_rad),
+            surge_mps: start[0] + sixth_s * nu_sum[0],
+            sway_mps: start[1] + sixth_s * nu_sum[1],
+            yaw_rate_radps: start[2] + sixth_s * nu_sum[2],
+        }
+    }
+
+    /// Coriolis and damping, as they stand on the left-hand side: `C(nu) nu + D(nu) nu`.
+    #[inline]
+    fn resistance(&self, nu: &Nu) -> Nu {
+        let [u, v, r] = *nu;
+        let m = &self.mass;
+        let lateral = m.sway * v + m.sway_yaw * r;
+        [
+            self.damping[0].force(u) - lateral * r,
+            self.damping[1].force(v) + m.surge * u * r,
+            self.damping[2].force(r) + lateral * u - m.surge * u * v,
+        ]
+    }
+
+    #[inline]
+    fn acceleration(&self, nu: &Nu, thrust_n: f64, side_n: f64, inverse: &MassMatrix) -> Nu {
+        let resistance = self.resistance(nu);
+        let lateral_n = side_n - resistance[1];
+        let moment_nm = side_n * self.propulsion.rudder_arm_m - resistance[2];
+        [
+            (thrust_n - resistance[0]) * inverse.surge,
+            inverse.sway * lateral_n + inverse.sway_yaw * moment_nm,
+            inverse.sway_yaw * lateral_n + inverse.yaw * moment_nm,
+        ]
+    }
+
+    /// Thrust and side force (N) of the autopilot.
+    ///
+    /// The direction that is brought onto the order lies halfway between heading and course
+    /// through the water. Heading alone leaves the boat drifting sideways long after a turn;
+    /// course alone is badly damped, because sideways drift dies slowly at small angles.
+    /// The error enters as `2 tan(e/2)`, which is the angle where it matters, saturates well
+    /// before half a turn, is exactly odd, and costs no transcendental function.
+    #[inline]
+    fn autopilot_n(&self, nu: &Nu, heading: Vec2, helm: &Helm) -> (f64, f64) {
+        let [u, v, r] = *nu;
+        let gains = &self.autopilot;
+        let per_speed = 1.0 / (u * u + v * v + DRIFT_MPS * DRIFT_MPS).sqrt();
+        let (ahead, aside) = (1.0 + u * per_speed, v * per_speed);
+        let wish = helm.direction;
+        let (wish_ahead, wish_aside) =
+            (wish.x * heading.x + wish.y * heading.y, wish.y * heading.x - wish.x * heading.y);
+        let cross = ahead * wish_aside - aside * wish_ahead;
+        let dot = ahead * wish_ahead + aside * wish_aside;
+        let numerator = 2.0 * gains.course * cross;
+        let denominator = math::length(ahead, aside) + dot;
+        let limit_radps = self.yaw_rate_radps_max;
+        let yaw_rate_radps = if numerator.abs() < limit_radps * denominator {
+            numerator / denominator
+        } else if cross < 0.0 {
+            -limit_radps
+        } else {
+            limit_radps
+        };
+
+        let resistance = self.resistance(nu);
+        let p = &self.propulsion;
+        let moment_nm = resistance[2] + self.mass.yaw * gains.yaw_rate * (yaw_rate_radps - r);
+        let side_n = (moment_nm / p.rudder_arm_m).clamp(-p.side_n_max, p.side_n_max);
+        let speed_mps = helm.speed_mps.min(self.speed_mps_max);
+        let thrust_n = resistance[0] + self.mass.surge * gains.speed * (speed_mps - u);
+        (thrust_n.clamp(-p.astern_n_max, p.thrust_n_max), side_n)
+    }
+}
+
+/// `heading` turned by `angle_rad`. Within a step the angle is small, where a short power series
+/// is exact to the last bit or two; larger angles take the library's sine.
+#[inline]
+fn turned(heading: Vec2, angle_rad: f64) -> Vec2 {
+    let (sin, cos) = if angle_rad.abs() < 0.25 {
+        let x2 = angle_rad * angle_rad;
+        let sin = 1.0 + x2 * (SIN[0] + x2 * (SIN[1] + x2 * (SIN[2] + x2 * (SIN[3] + x2 * SIN[4]))));
+        let cos = 1.0 + x2 * (COS[0] + x2 * (COS[1] + x2 * (COS[2] + x2 * (COS[3] + x2 * COS[4]))));
+        (angle_rad * sin, cos)
+    } else {
+        math::sin_cos(angle_rad)
+    };
+    Vec2::new(cos * heading.x - sin * heading.y, sin * heading.x + cos * heading.y)
+}
+
+/// Coefficients of sin(x) / x in x^2, from the second on.
+const SIN: [f64; 5] =
+    [-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0];
+/// Coefficients of cos(x) in x^2, from the second on.
+const COS: [f64; 5] = [-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_series_is_the_sine() {
+        for k in -250..=250 {
+            let angle_rad = f64::from(k) * 1e-3;
+            let gap = (turned(Vec2::new(1.0, 0.0), angle_rad) - geom::unit(angle_rad)).norm();
+            assert!(gap < 3e-16, "{angle_rad}: {gap}");
+        }
+    }
+}

@@ -1,0 +1,353 @@
+//! The loop: an encounter and a planner become a trace.
+//!
+//! Time is `step * step_s`. Once a beat: sample, end?, ask the planner, steer everybody, all on
+//! the same snapshot; then the steps of the beat: all move, then every pair is looked at.
+
+use crate::approach::{Approach, Hulls, Interval};
+use crate::check::check;
+use crate::contact::{Inertia, Party, collide};
+use crate::ending::{Ending, Other};
+use crate::intent::{Script, turning_radius_m};
+use crate::pose::Pose;
+use crate::recorder;
+use crate::sensing::{Sensors, own_state};
+use crate::ship::Ship;
+use crate::vessel::{Helm, Model};
+use planner_api::{CommandError, Mission, Planner, Situation, TargetTrack};
+use record::{
+    Alert, Contact, ContactWith, Encounter, Order, Outcome, Pair, PlannerEvents, Purpose,
+    ShipTrack, Streams, Trace, Visibility,
+};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Buffers that a worker keeps from run to run. They carry nothing over.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    tracks: Vec<TargetTrack>,
+}
+
+/// Runs one encounter under a planner.
+///
+/// `beat` is raised by one before and after every call into the planner, so that a watchdog on
+/// another thread can see a call that does not return. A planner's panic is caught and becomes
+/// the outcome; the caller may install a panic hook to keep it quiet. An encounter that
+/// [`check`] refuses gives `Outcome::Invalid` without samples. `nominal` and `last_minute` are
+/// left empty.
+pub fn run(
+    encounter: &Encounter,
+    planner: &mut dyn Planner,
+    scratch: &mut Scratch,
+    beat: &AtomicU64,
+) -> Trace {
+    if check(encounter).is_err() {
+        return invalid(encounter);
+    }
+    let mut world = World::new(encounter);
+    let mut pilot = Pilot { planner, beat, mission: mission(encounter, &world.own) };
+    let (outcome, end_s) = world.sail(&mut pilot, scratch);
+    world.into_trace(outcome, end_s, pilot.events())
+}
+
+/// Below this lower bound every hull distance of a trace is exact, metres: beyond what any rule
+/// set compares a hull distance of a small craft with, and beyond twice the safety radius.
+const NEAR_M_MIN: f64 = 300.0;
+
+struct World<'a> {
+    encounter: &'a Encounter,
+    own: Ship,
+    targets: Vec<Ship>,
+    scripts: Vec<Script>,
+    approaches: Vec<Approach>,
+    sensors: Sensors,
+    ending: Ending,
+    own_track: ShipTrack,
+    target_tracks: Vec<ShipTrack>,
+    hull_m: Vec<Vec<f64>>,
+    orders: Vec<Order>,
+    alerts: Vec<Alert>,
+    contact: Option<Contact>,
+}
+
+/// The planner behind its three hazards: it may panic, it may not return, it may order nonsense.
+struct Pilot<'a> {
+    planner: &'a mut dyn Planner,
+    beat: &'a AtomicU64,
+    mission: Mission,
+}
+
+impl Pilot<'_> {
+    fn call<T>(&mut self, f: impl FnOnce(&mut dyn Planner, &Mission) -> T) -> Result<T, Outcome> {
+        self.beat.fetch_add(1, Ordering::Relaxed);
+        let answer = catch_unwind(AssertUnwindSafe(|| f(self.planner, &self.mission)));
+        self.beat.fetch_add(1, Ordering::Relaxed);
+        answer.map_err(|_| Outcome::PlannerPanicked)
+    }
+
+    fn events(&mut self) -> PlannerEvents {
+        let events = self.call(|planner, _| planner.events()).unwrap_or_default();
+        PlannerEvents {
+            inner_loop_cap: events.inner_loop_cap,
+            limited: events.limited,
+            inside_called_safe: events.inside_called_safe,
+            class_changes: events.class_changes,
+            receding_flagged: events.receding_flagged,
+            passes: events.passes,
+        }
+    }
+}
+
+impl<'a> World<'a> {
+    fn new(encounter: &'a Encounter) -> Self {
+        let current_mps = encounter.weather.current_mps;
+        let ship = |hull, vessel, start| {
+            Ship::new(hull, vessel, start, current_mps).expect("the encounter was checked")
+        };
+        let own = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
+        let targets: Vec<Ship> =
+            encounter.targets.iter().map(|t| ship(t.hull, &t.vessel, &t.start)).collect();
+        let scripts = encounter.targets.iter().zip(&targets).map(|(target, ship)| {
+            Script::of(&target.intent, ship, target.start.speed_mps)
+                .expect("the encounter was checked: no target runs a planner")
+        });
+        let near_m = NEAR_M_MIN.max(2.0 * encounter.safety_radius_m);
+        let approaches = targets.iter().map(|target| {
+            let hulls = Hulls { own: &own.hull, target: &target.hull };
+            Approach::new(near_m, hulls, &own.pose, &target.pose)
+        });
+        let run = &encounter.run;
+        let room = (run.duration_s_max / run.beat_s) as usize + 2;
+        Self {
+            encounter,
+            scripts: scripts.collect(),
+            approaches: approaches.collect(),
+            sensors: Sensors::new(&encounter.sensing, targets.len()),
+            ending: Ending::new(encounter, turning_radius_m(&own)),
+            own_track: recorder::track_of(&own, room),
+            target_tracks: targets.iter().map(|t| recorder::track_of(t, room)).collect(),
+            hull_m: targets.iter().map(|_| Vec::with_capacity(room)).collect(),
+            orders: Vec::with_capacity(room),
+            alerts: Vec::new(),
+            contact: None,
+            own,
+            targets,
+        }
+    }
+
+    /// Beats until the end: how the run ended and when (seconds).
+    fn sail(&mut self, pilot: &mut Pilot<'_>, scratch: &mut Scratch) -> (Outcome, f64) {
+        let run = self.encounter.run;
+        let steps_a_beat = (run.beat_s / run.step_s).round() as u64;
+        if let Err(outcome) = pilot.call(|planner, mission| planner.reset(mission)) {
+            return (outcome, 0.0);
+        }
+        let mut step = 0;
+        loop {
+            let t_s = step as f64 * run.step_s;
+            self.sample();
+            if self.is_over(t_s) {
+                return (Outcome::Completed, t_s);
+            }
+            if t_s >= run.duration_s_max {
+                return (Outcome::Truncated, t_s);
+            }
+            self.sensors.look(t_s, &self.own, &self.targets, &mut scratch.tracks);
+            match self.ask(pilot, t_s, &scratch.tracks) {
+                Ok(helm) => self.own.steer(helm, t_s),
+                Err(outcome) => return (outcome, t_s),
+            }
+            for (script, target) in self.scripts.iter_mut().zip(&mut self.targets) {
+                script.steer(target, t_s);
+            }
+            for _ in 0..steps_a_beat {
+                if let Some(contact) = self.step(step) {
+                    self.contact = Some(contact);
+                    return (Outcome::Collision, contact.t_s);
+                }
+                step += 1;
+            }
+        }
+    }
+
+    fn sample(&mut self) {
+        recorder::sample(&mut self.own_track, &self.own.state, self.own.pose.velocity_mps);
+        for (track, ship) in self.target_tracks.iter_mut().zip(&self.targets) {
+            recorder::sample(track, &ship.state, ship.pose.velocity_mps);
+        }
+        for (hull_m, approach) in self.hull_m.iter_mut().zip(&mut self.approaches) {
+            hull_m.push(approach.take_interval_m());
+        }
+    }
+
+    fn is_over(&mut self, t_s: f64) -> bool {
+        let own = &self.own;
+        let goal_m = self.encounter.own.route.last().map_or(own.pose.position_m, |w| w.position_m);
+        let others = self.targets.iter().map(|target| Other {
+            pose: &target.pose,
+            radii_m: own.hull.radius_m + target.hull.radius_m,
+        });
+        self.ending.is_over(t_s, &own.pose, others, (goal_m - own.pose.position_m).norm())
+    }
+
+    /// The planner's order of this beat, checked and recorded.
+    fn ask(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        t_s: f64,
+        tracks: &[TargetTrack],
+    ) -> Result<Helm, Outcome> {
+        let own = own_state(&self.own);
+        let visual_range_m = match self.encounter.visibility {
+            Visibility::InSight => None,
+            Visibility::Restricted { visual_range_m } => Some(visual_range_m),
+        };
+        let situation = Situation { t_s, own, tracks, visual_range_m };
+        let command = pilot.call(|planner, _| planner.plan(&situation))?;
+        let speed_mps_max = pilot.mission.own.speed_mps_max;
+        let (course_rad, speed_mps) =
+            command.order.checked(speed_mps_max, own.psi_rad).map_err(|error| match error {
+                CommandError::NonFinite => Outcome::PlannerNonFinite,
+                CommandError::OutOfRange => Outcome::PlannerOutOfRange,
+            })?;
+        self.orders.push(Order { course_rad, speed_mps });
+        // an alert about a track that does not exist declares nothing
+        let known = command.alerts.into_iter().filter(|a| tracks.iter().any(|t| t.id == a.track));
+        self.alerts.extend(known.map(|alert| Alert {
+            t_s,
+            target: alert.track as u8,
+            rule: alert.rule,
+        }));
+        Ok(Helm::over_ground(course_rad, speed_mps, self.own.current_mps()))
+    }
+
+    /// One step: all move, then every pair is looked at. The earliest contact, if there is one.
+    fn step(&mut self, step: u64) -> Option<Contact> {
+        let dt_s = self.encounter.run.step_s;
+        let (start_s, end_s) = (step as f64 * dt_s, (step + 1) as f64 * dt_s);
+        self.own.advance(end_s, dt_s);
+        let mut first: Option<(f64, usize)> = None;
+        for (index, target) in self.targets.iter_mut().enumerate() {
+            target.advance(end_s, dt_s);
+            let interval = Interval {
+                start_s,
+                dt_s,
+                own: [&self.own.before, &self.own.pose],
+                target: [&target.before, &target.pose],
+            };
+            let hulls = Hulls { own: &self.own.hull, target: &target.hull };
+            if let Some(fraction) = self.approaches[index].advance(&interval, hulls)
+                && first.is_none_or(|(earliest, _)| fraction < earliest)
+            {
+                first = Some((fraction, index));
+            }
+        }
+        first.map(|(fraction, index)| self.contact(start_s, dt_s, fraction, index))
+    }
+
+    fn contact(&self, start_s: f64, dt_s: f64, fraction: f64, index: usize) -> Contact {
+        let target = &self.targets[index];
+        let at = |ship: &Ship| Pose::between(&ship.before, &ship.pose, dt_s, fraction);
+        let own = Party { hull: &self.own.hull, pose: at(&self.own), inertia: inertia(&self.own) };
+        let other = Party { hull: &target.hull, pose: at(target), inertia: inertia(target) };
+        let impact = collide(&own, &other).impact;
+        Contact {
+            t_s: start_s + fraction * dt_s,
+            with: ContactWith::Target(index as u8),
+            impact_mps: impact.closing_mps,
+            impulse_ns: impact.impulse_ns,
+            energy_lost_j: impact.energy_lost_j,
+        }
+    }
+
+    fn into_trace(mut self, outcome: Outcome, end_s: f64, events: PlannerEvents) -> Trace {
+        let sample_s = self.encounter.run.beat_s;
+        let mut pairs = Vec::with_capacity(self.targets.len());
+        for (index, target) in self.targets.iter().enumerate() {
+            let hull_m = std::mem::take(&mut self.hull_m[index]);
+            let hulls = Hulls { own: &self.own.hull, target: &target.hull };
+            let (own, other) = (&self.own_track, &self.target_tracks[index]);
+            let poses = |k: usize| [recorder::pose(own, k), recorder::pose(other, k)];
+            let minimum = self.approaches[index].settle(&hull_m, hulls, poses, sample_s);
+            let seen_s = self.sensors.first_s(index);
+            pairs.push(Pair { hull_m, minimum, detected_s: seen_s, tracked_s: seen_s });
+        }
+        Trace {
+            outcome,
+            end_s,
+            own: self.own_track,
+            targets: self.target_tracks,
+            pairs,
+            orders: self.orders,
+            alerts: self.alerts,
+            events,
+            contact: self.contact,
+            ..invalid(self.encounter)
+        }
+    }
+}
+
+/// What a ship weighs in a contact: her model's displacement, or an estimate from her hull.
+fn inertia(ship: &Ship) -> Inertia {
+    match ship.model {
+        Model::ThreeDof(model) => {
+            Inertia { mass_kg: model.displacement_kg, yaw_kgm2: model.inertia_kgm2 }
+        }
+        Model::Kinematic(_) => Inertia::of_outline(&ship.outline),
+    }
+}
+
+/// What the planner is told once.
+fn mission(encounter: &Encounter, own: &Ship) -> Mission {
+    let limits = own.model.limits();
+    let mut stream = Streams::new(encounter.seed, &encounter.id).stream(Purpose::Planner, 0);
+    Mission {
+        own: planner_api::OwnShip {
+            length_m: own.outline.length_m,
+            beam_m: own.outline.beam_m,
+            speed_mps_max: limits.speed_mps_max,
+            yaw_rate_radps_max: limits.yaw_rate_radps_max,
+            acceleration_mps2_max: limits.acceleration_mps2_max,
+        },
+        route: encounter
+            .own
+            .route
+            .iter()
+            .map(|w| planner_api::Waypoint { position_m: w.position_m, speed_mps: w.speed_mps })
+            .collect(),
+        cruise_mps: encounter.own.cruise_mps,
+        safety_radius_m: encounter.safety_radius_m,
+        between_centres: encounter.distance == record::DistanceKind::Centre,
+        beat_s: encounter.run.beat_s,
+        stream_seed: stream.next_u64(),
+    }
+}
+
+/// The trace of an encounter that was not run.
+fn invalid(encounter: &Encounter) -> Trace {
+    let empty = |hull| {
+        let ship =
+            record::Ship { hull, yaw_rate_radps_max: 0.0, speed_mps_max: 0.0, steerage_mps: None };
+        ShipTrack::with_capacity(ship, 0)
+    };
+    Trace {
+        id: encounter.id.clone(),
+        outcome: Outcome::Invalid,
+        end_s: 0.0,
+        sample_s: encounter.run.beat_s,
+        safety_radius_m: encounter.safety_radius_m,
+        distance: encounter.distance,
+        visibility: encounter.visibility,
+        route: encounter.own.route.clone(),
+        cruise_mps: encounter.own.cruise_mps,
+        own: empty(encounter.own.hull),
+        targets: Vec::new(),
+        pairs: Vec::new(),
+        hazard_m_min: None,
+        orders: Vec::new(),
+        alerts: Vec::new(),
+        events: PlannerEvents::default(),
+        contact: None,
+        nominal: None,
+        last_minute: None,
+    }
+}

@@ -1,0 +1,84 @@
+//! Killed in the middle and resumed, a campaign ends as one never stopped.
+
+use crate::support::{assert_same_result, run_err, run_ok, seatrial};
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
+
+const CAMPAIGN: &str = "campaign quick --encounters 1100 --threads 2 --quiet --planner hold-course";
+
+/// Waits until at least `parts` parts are there.
+fn wait_for_parts(result: &Path, parts: usize) {
+    for _ in 0..6000 {
+        let there = std::fs::read_dir(result.join("state/parts"))
+            .map(|list| {
+                list.flatten().filter(|e| e.path().extension().is_some_and(|x| x == "part")).count()
+            })
+            .unwrap_or(0);
+        if there >= parts {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("no part appeared in {}", result.display());
+}
+
+#[test]
+fn a_campaign_killed_and_resumed_ends_as_one_never_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    run_ok(folder.path(), &format!("{CAMPAIGN} --out straight"));
+    let mut child = seatrial(folder.path())
+        .args(CAMPAIGN.split_whitespace())
+        .args(["--out", "killed"])
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_for_parts(&folder.path().join("killed"), 2);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!folder.path().join("killed/manifest.json").exists(), "it was killed too late");
+    // without --resume a partial result is left alone
+    let said = run_err(folder.path(), &format!("{CAMPAIGN} --out killed"), 2);
+    assert!(said.contains("--resume"), "{said}");
+    run_ok(folder.path(), &format!("{CAMPAIGN} --out killed --resume"));
+    assert_same_result(&folder.path().join("straight"), &folder.path().join("killed"));
+}
+
+#[test]
+fn an_interrupt_leaves_a_resumable_state_and_says_how() {
+    let folder = tempfile::tempdir().unwrap();
+    let child = seatrial(folder.path())
+        .args(CAMPAIGN.split_whitespace())
+        .args(["--out", "stopped"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    wait_for_parts(&folder.path().join("stopped"), 1);
+    let interrupted = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(interrupted.success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("--resume"), "{said}");
+    run_ok(folder.path(), &format!("{CAMPAIGN} --out stopped --resume"));
+}
+
+/// Whatever was cut or changed in a part is found before it is used.
+#[test]
+fn a_damaged_part_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let shard = "campaign quick --encounters 600 --shard 1/2 --out parts --quiet";
+    run_ok(folder.path(), shard);
+    let parts = folder.path().join("parts/state/parts");
+    let first = std::fs::read_dir(&parts).unwrap().flatten().map(|e| e.path()).min().unwrap();
+    let mut bytes = std::fs::read(&first).unwrap();
+    let last = bytes.len() - 1;
+    bytes[last] ^= 1;
+    std::fs::write(&first, bytes).unwrap();
+    let said =
+        run_err(folder.path(), "campaign quick --encounters 600 --out parts --quiet --resume", 2);
+    assert!(said.contains(first.file_name().unwrap().to_str().unwrap()), "{said}");
+}
