@@ -71,24 +71,20 @@ impl Judge {
         self.own.fill(&trace.own, nominal, trace.sample_s, &self.rules);
         turn_runs(&self.own, &trace.own.ship, trace.sample_s, &self.rules, &mut self.turns);
         speed_runs(&self.own, trace.sample_s, &self.rules, &mut self.speeds);
+        let flaws: Vec<_> =
+            (0..targets).map(|target| target_flaw(trace, target, &self.rules)).collect();
         let mut lives = Vec::with_capacity(targets);
-        for target in 0..targets {
-            if target_flaw(trace, target, &self.rules).is_none() {
-                lives.push(PairLife::new(trace, &self.rules, target, &mut self.scanner));
-            }
+        for target in (0..targets).filter(|&target| flaws[target].is_none()) {
+            lives.push(PairLife::new(trace, &self.rules, target, &mut self.scanner));
         }
+        let bench =
+            Bench { own: &self.own, turns: &self.turns, speeds: &self.speeds, lives: &lives };
         let mut readable = lives.iter();
-        for target in 0..targets {
-            match target_flaw(trace, target, &self.rules) {
+        for (target, flaw) in flaws.into_iter().enumerate() {
+            match flaw {
                 Some(flaw) => unreadable(trace, target, flaw, &mut judgement),
                 None => {
                     let life = readable.next().expect("every readable target has its life");
-                    let bench = Bench {
-                        own: &self.own,
-                        turns: &self.turns,
-                        speeds: &self.speeds,
-                        lives: &lives,
-                    };
                     bench.judge_pair(life, &mut self.scanner, &mut judgement);
                 }
             }

@@ -2,8 +2,8 @@
 //!
 //! No rule by itself; "in extremis" of the literature (Krata & Montewka 2015 and others).
 //! Reading: the last instant at which own ship alone could still clear (contact), found by the
-//! campaign on the nominal track and stored in the trace; this check only reads it. Acting after it,
-//! or not at all where own ship had to act, fails; within 10 s of it warns.
+//! campaign on the nominal track and stored in the trace; this check only reads it. Acting after
+//! it, or not at all where own ship had to act, fails; within 10 s of it warns.
 //! Source: rules specification, section 10.
 
 use crate::case::Case;
@@ -59,16 +59,13 @@ fn ruling(
         .seconds("t_man", acted_s)
         .say(|| {
             let when = case.when(last_s);
+            let last = "own ship could last have cleared alone";
             match acted_s {
-                None => format!("{when}, own ship could last have cleared alone, and did not act."),
-                Some(_) if margin_s < 0.0 => format!(
-                    "{when}, own ship could last have cleared alone; she acted {:.0} seconds later.",
-                    -margin_s
-                ),
-                Some(_) => format!(
-                    "{when}, own ship could last have cleared alone; she acted {margin_s:.0} seconds \
-                     before."
-                ),
+                None => format!("{when}, {last}, and did not act."),
+                Some(_) if margin_s < 0.0 => {
+                    format!("{when}, {last}; she acted {:.0} seconds later.", -margin_s)
+                }
+                Some(_) => format!("{when}, {last}; she acted {margin_s:.0} seconds before."),
             }
         })
         .done()

@@ -1,7 +1,8 @@
 //! Rule 8(c): the alteration "does not result in another close-quarters situation".
 //!
-//! Rule 8(c): "... an alteration of course alone may be the most effective action ... provided that
-//! it is made in good time, is substantial and does not result in another close-quarters situation."
+//! Rule 8(c): "... an alteration of course alone may be the most effective action ... provided
+//! that it is made in good time, is substantial and does not result in another close-quarters
+//! situation."
 //! Reading: with several targets, a turn for this one must not open risk with another that was at
 //! none: a close pass newly predicted when the turn ends, and still when it has lasted.
 //! Source: rules specification, sections 6 and 11.

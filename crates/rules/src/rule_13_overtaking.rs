@@ -1,13 +1,13 @@
 //! Rule 13: overtaking. Own ship overtakes.
 //!
 //! Rule 13(a): "any vessel overtaking any other shall keep out of the way of the vessel being
-//! overtaken"; 13(d): "Any subsequent alteration of the bearing ... shall not ... relieve her of the
-//! duty of keeping clear of the overtaken vessel until she is finally past and clear."
-//! Reading: either side is allowed. 13(a) fails with the passing distance. 13(d) fails when, before
-//! release, own ship crosses the other's centre line close ahead of her bow, comes close on her bow
-//! while the range falls, or turns towards her line from forward of the sector of 13(b) so that a
-//! close pass is predicted. Drawing ahead on a steady course is no breach. A run that ends before
-//! release cannot show that 13(d) was kept. That the other was forced to act is not judged.
+//! overtaken"; 13(d): "Any subsequent alteration of the bearing ... shall not ... relieve her of
+//! the duty of keeping clear of the overtaken vessel until she is finally past and clear."
+//! Reading: either side is allowed. 13(a) fails with the passing distance. 13(d) fails when,
+//! before release, own ship crosses the other's centre line close ahead of her bow, comes close on
+//! her bow while the range falls, or turns towards her line from forward of the sector of 13(b) so
+//! that a close pass is predicted. Drawing ahead on a steady course is no breach. A run that ends
+//! before release cannot show that 13(d) was kept. That the other was forced to act is not judged.
 //! Source: rules specification, section 8; score after Hagen 2023, equations 25 and 26.
 
 use crate::case::Case;

@@ -1,12 +1,12 @@
 //! Rule 14: head-on.
 //!
-//! Rule 14(a): "When two power-driven vessels are meeting on reciprocal or nearly reciprocal courses
-//! so as to involve risk of collision each shall alter her course to starboard so that each shall
-//! pass on the port side of the other."
-//! Reading, first match: 10 degrees to port before the first starboard run of 10 fails; less than 10
-//! degrees to starboard fails, whatever the speed did; 30 degrees to starboard (or 10, at the
-//! preferred distance) and a port-to-port pass pass; the rest is a warning, and so is a yaw to port
-//! of 2 to 10 degrees first. A port turn begun before risk opened is a warning.
+//! Rule 14(a): "When two power-driven vessels are meeting on reciprocal or nearly reciprocal
+//! courses so as to involve risk of collision each shall alter her course to starboard so that
+//! each shall pass on the port side of the other."
+//! Reading, first match: 10 degrees to port before the first starboard run of 10 fails; less than
+//! 10 degrees to starboard fails, whatever the speed did; 30 degrees to starboard (or 10, at the
+//! preferred distance) and a port-to-port pass pass; the rest is a warning, and so is a yaw to
+//! port of 2 to 10 degrees first. A port turn begun before risk opened is a warning.
 //! Source: rules specification, section 9 (R14); score after Hagen 2023, equations 27 to 30.
 
 use crate::case::Case;

@@ -3,10 +3,12 @@
 //! Rule 17(a)(i): "Where one of two vessels is to keep out of the way the other shall keep her
 //! course and speed."
 //! Reading: from stage 2 until she may act (17(a)(ii)), the mean heading over 30 s stays within 10
-//! degrees of the mean before stage 2 and the speed within a quarter; from 2 degrees or 7 % it is a
-//! warning. Heading is a mean because a yaw of 1 degree rms would warn in 98 % of held courses. A
-//! change on the planned route is no departure; one forced by giving way to a third ship is excused.
-//! Source: rules specification, sections 9 (R17) and 11; score after Hagen 2023, equations 15 to 24.
+//! degrees of the mean before stage 2 and the speed within a quarter; from 2 degrees or 7 % it is
+//! a warning. Heading is a mean because a yaw of 1 degree rms would warn in 98 % of held courses.
+//! A change on the planned route is no departure; one forced by giving way to a third ship is
+//! excused.
+//! Source: rules specification, sections 9 (R17) and 11; score after Hagen 2023, equations 15 to
+//! 24.
 
 use crate::case::Case;
 use crate::ruling::{Ruling, not_applicable};
@@ -65,7 +67,8 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
                 format!("{when}, own ship, to keep her course, {altered}. Rule 17(a)(i).")
             } else {
                 let change = 100.0 * held.share;
-                format!("{when}, own ship, to keep her speed, changed it by {change:+.0} %. Rule 17(a)(i).")
+                let changed = format!("changed her speed by {change:+.0} %");
+                format!("{when}, own ship, to keep it, {changed}. Rule 17(a)(i).")
             }
         })
         .done()

@@ -4,9 +4,9 @@
 //! alone, as soon as it becomes apparent to her that the vessel required to keep out of the way is
 //! not taking appropriate action".
 //! Reading: the moment is the first sample from stage 3 on at which a pass closer than the minimum
-//! distance has been predicted for 5 s while risk is open. From then on neither acting nor holding is
-//! penalised, so this check passes when the moment came and says when; what was done before it is
-//! judged as 17(a)(i).
+//! distance has been predicted for 5 s while risk is open. From then on neither acting nor holding
+//! is penalised, so this check passes when the moment came and says when; what was done before it
+//! is judged as 17(a)(i).
 //! Source: rules specification, section 9 (R17).
 
 use crate::case::Case;

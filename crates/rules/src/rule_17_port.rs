@@ -1,12 +1,13 @@
 //! Rule 17(c): the stand-on vessel does not alter to port for a vessel on her own port side.
 //!
-//! Rule 17(c): "A power-driven vessel which takes action in a crossing situation in accordance with
-//! subparagraph (a)(ii) ... shall, if the circumstances of the case admit, not alter course to port
-//! for a vessel on her own port side."
+//! Rule 17(c): "A power-driven vessel which takes action in a crossing situation in accordance
+//! with subparagraph (a)(ii) ... shall, if the circumstances of the case admit, not alter course
+//! to port for a vessel on her own port side."
 //! Reading: in stage 3, with the other on the port side and forward of the overtaking sector, an
-//! offset to port of 10 degrees fails and one of 2 warns. In stage 4 Rule 17(b) asks for "such action
-//! as will best aid" and names no side: a warning (a failure in the conservative reading). A return
-//! to the route after the closest point is none; a turn begun before risk opened is a warning.
+//! offset to port of 10 degrees fails and one of 2 warns. In stage 4 Rule 17(b) asks for "such
+//! action as will best aid" and names no side: a warning (a failure in the conservative reading).
+//! A return to the route after the closest point is none; a turn begun before risk opened is a
+//! warning.
 //! Source: rules specification, section 9 (R17).
 
 use crate::case::Case;

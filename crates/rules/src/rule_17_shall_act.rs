@@ -1,12 +1,12 @@
 //! Rule 17(b): the stand-on vessel shall act.
 //!
-//! Rule 17(b): "When, from any cause, the vessel required to keep her course and speed finds herself
-//! so close that collision cannot be avoided by the action of the give-way vessel alone, she shall
-//! take such action as will best aid to avoid collision."
+//! Rule 17(b): "When, from any cause, the vessel required to keep her course and speed finds
+//! herself so close that collision cannot be avoided by the action of the give-way vessel alone,
+//! she shall take such action as will best aid to avoid collision."
 //! Reading: the moment is the other's last safe instant where it was computed, else the entry of
-//! stage 4. By a few seconds later (or own last safe instant, if sooner) a run of 10 degrees or a cut
-//! of a quarter of the speed must have begun, if the hulls are still to pass within a near miss. An
-//! action begun earlier under 17(a)(ii) satisfies it.
+//! stage 4. By a few seconds later (or own last safe instant, if sooner) a run of 10 degrees or a
+//! cut of a quarter of the speed must have begun, if the hulls are still to pass within a near
+//! miss. An action begun earlier under 17(a)(ii) satisfies it.
 //! Source: rules specification, section 9 (R17).
 
 use crate::case::{Case, instant_s};

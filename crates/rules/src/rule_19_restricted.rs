@@ -1,15 +1,16 @@
 //! Rule 19: conduct of vessels in restricted visibility, not in sight of one another.
 //!
-//! Rule 19(d): a vessel that detects another by radar alone shall "avoid (i) an alteration of course
-//! to port for a vessel forward of the beam, other than for a vessel being overtaken; (ii) an
-//! alteration of course towards a vessel abeam or abaft the beam"; 19(e): where close quarters with a
-//! vessel forward of the beam cannot be avoided she "shall reduce her speed to the minimum at which
-//! she can be kept on her course".
-//! Reading: no vessel stands on. (d) is judged on each turn of 10 degrees (2 warn), at the bearing at
-//! which it began; "so far as possible": a warning where own last safe instant had passed. (e): at
-//! half the close-quarters distance and still closing on a vessel forward of the beam she is at
+//! Rule 19(d): a vessel that detects another by radar alone shall "avoid (i) an alteration of
+//! course to port for a vessel forward of the beam, other than for a vessel being overtaken; (ii)
+//! an alteration of course towards a vessel abeam or abaft the beam"; 19(e): where close quarters
+//! with a vessel forward of the beam cannot be avoided she "shall reduce her speed to the minimum
+//! at which she can be kept on her course".
+//! Reading: no vessel stands on. (d) is judged on each turn of 10 degrees (2 warn), at the bearing
+//! at which it began; "so far as possible": a warning where own last safe instant had passed. (e):
+//! at half the close-quarters distance and still closing on a vessel forward of the beam she is at
 //! steerage speed. Ample time and size are Rule 8's.
-//! Source: rules specification, section 9 (R19). 19(b), safe speed, has no number and is not judged.
+//! Source: rules specification, section 9 (R19). 19(b), safe speed, has no number and is not
+//! judged.
 
 use crate::case::Case;
 use crate::ruling::{Ruling, not_applicable};

@@ -175,8 +175,9 @@ impl Scene {
         let mut seconds = all.min().unwrap();
         let mut contact = None;
         for (i, target) in self.targets.iter().enumerate() {
+            let radii_m = self.own.ship.hull.radius_m() + target.ship.hull.radius_m();
             let touches = |step: &usize| {
-                let near = (self.own.states[*step].0 - target.states[*step].0).norm() < 400.0;
+                let near = (self.own.states[*step].0 - target.states[*step].0).norm() < radii_m;
                 near && outline_distance_m(&self.own.corners(*step), &target.corners(*step)) <= 0.0
             };
             if let Some(step) = (0..=seconds * STEPS).find(touches) {

@@ -1,10 +1,11 @@
 //! TURN: rule-consistent turn direction, the headline check; one line for each pair.
 //!
-//! Rules 14 (starboard), 15 (not ahead), 17(a)(i) (hold), 17(c) (not to port for a ship on the port
-//! side).
+//! Rules 14 (starboard), 15 (not ahead), 17(a)(i) (hold), 17(c) (not to port for a ship on the
+//! port side).
 //! Reading: the first run of at least 10 degrees that belongs to this target decides, by a table;
-//! a smaller one counts only where there is none, and then a failure becomes a warning. Speed alone
-//! says nothing here. A turn begun before risk opened is not failed: the law leaves the choice free.
+//! a smaller one counts only where there is none, and then a failure becomes a warning. Speed
+//! alone says nothing here. A turn begun before risk opened is not failed: the law leaves the
+//! choice free.
 //! Source: rules specification, section 9 (TURN); the table is this project's.
 
 use crate::case::Case;

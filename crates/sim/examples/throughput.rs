@@ -99,7 +99,7 @@ fn bare(encounter: &Encounter, step_s: f64) {
 
 /// Alters course every two minutes.
 fn weave(t_s: f64) -> f64 {
-    if (t_s / 120.0) as u64 % 2 == 0 { 0.0 } else { deg(35.0) }
+    if ((t_s / 120.0) as u64).is_multiple_of(2) { 0.0 } else { deg(35.0) }
 }
 
 struct Weave;

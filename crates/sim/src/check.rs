@@ -1,6 +1,7 @@
 //! Whether an encounter can be run at all.
 
-use crate::approach::{Approach, Hulls};
+use crate::approach::Approach;
+use crate::interval::Hulls;
 use crate::ship::Ship;
 use crate::vessel::{known_models, limits};
 use geom::{HullOutline, Vec2};

@@ -62,10 +62,11 @@ pub struct Other<'a> {
 }
 
 impl Ending {
-    /// For one run. `turning_radius_m` is own ship's at cruise speed: a goal counts as reached
-    /// within that, two lengths, or the way of two beats, whichever is most.
-    pub fn new(encounter: &Encounter, turning_radius_m: f64) -> Self {
+    /// For one run; `yaw_rate_radps_max` is own ship's. A goal counts as reached within her
+    /// turning radius at cruise speed, two lengths, or the way of two beats, whichever is most.
+    pub fn new(encounter: &Encounter, yaw_rate_radps_max: f64) -> Self {
         let own = &encounter.own;
+        let turning_radius_m = own.cruise_mps / yaw_rate_radps_max;
         let small = own.hull.length_m <= SMALL_M;
         let (least_m, far_m) = if small { (300.0, 2000.0) } else { (2000.0, 5300.0) };
         let two_beats_m = 2.0 * own.cruise_mps * encounter.run.beat_s;

@@ -141,43 +141,54 @@ mod tests {
         one_way(a, b).min(one_way(b, a))
     }
 
+    fn gap(a: (&HullOutline, &Pose), b: (&HullOutline, &Pose)) -> Gap {
+        Hull::new(a.0).gap(a.1, &Hull::new(b.0), b.1, &mut Warm::default())
+    }
+
     proptest! {
         #[test]
         fn distance_is_that_of_brute_force(
-            bearing in -3.1f64..3.1, range in 40f64..300.0, psi in -3.1f64..3.1, other_psi in -3.1f64..3.1,
+            bearing in -3.1f64..3.1, range in 40f64..300.0,
+            psi in -3.1f64..3.1, other_psi in -3.1f64..3.1,
         ) {
-            let (outline, other_outline) = (HullOutline::centred(8.45, 2.71), HullOutline::centred(60.0, 11.0));
-            let position = geom::unit(bearing) * range;
-            let own = at(0.0, 0.0, psi);
-            let target = at(position.x, position.y, other_psi);
-            let gap = Hull::new(&outline).gap(&own, &Hull::new(&other_outline), &target, &mut Warm::default());
-            let expected = brute_force_m(
+            let outline = HullOutline::centred(8.45, 2.71);
+            let other = HullOutline::centred(60.0, 11.0);
+            let place = geom::unit(bearing) * range;
+            let (own, target) = (at(0.0, 0.0, psi), at(place.x, place.y, other_psi));
+            let distance_m = gap((&outline, &own), (&other, &target)).distance_m;
+            let expected_m = brute_force_m(
                 &outline.corners_m(Vec2::zeros(), psi),
-                &other_outline.corners_m(position, other_psi),
+                &other.corners_m(place, other_psi),
             );
-            prop_assert!((gap.distance_m - expected).abs() < 1e-9, "{} {}", gap.distance_m, expected);
+            prop_assert!((distance_m - expected_m).abs() < 1e-9, "{distance_m} {expected_m}");
         }
 
         #[test]
         fn opening_speed_is_the_derivative(
-            bearing in -3.1f64..3.1, range in 60f64..200.0, v in -9f64..9.0, w in -9f64..9.0, r in -0.3f64..0.3,
+            bearing in -3.1f64..3.1, range in 60f64..200.0,
+            v in -9f64..9.0, w in -9f64..9.0, r in -0.3f64..0.3,
         ) {
-            let (a, b) = (Hull::new(&HullOutline::centred(20.0, 5.0)), Hull::new(&HullOutline::centred(60.0, 11.0)));
-            let own = Pose { velocity_mps: Vec2::new(v, w), yaw_rate_radps: r, ..at(0.0, 0.0, 0.3) };
-            let position = geom::unit(bearing) * range;
-            let target = Pose { velocity_mps: Vec2::new(-w, 2.0), yaw_rate_radps: -r, ..at(position.x, position.y, 2.0) };
+            let (a, b) = (HullOutline::centred(20.0, 5.0), HullOutline::centred(60.0, 11.0));
+            let place = geom::unit(bearing) * range;
+            let moving = |pose: Pose, velocity_mps, yaw_rate_radps| Pose {
+                velocity_mps,
+                yaw_rate_radps,
+                ..pose
+            };
+            let own = moving(at(0.0, 0.0, 0.3), Vec2::new(v, w), r);
+            let target = moving(at(place.x, place.y, 2.0), Vec2::new(-w, 2.0), -r);
             let later = |p: &Pose, dt: f64| Pose {
                 position_m: p.position_m + p.velocity_mps * dt,
                 heading: geom::angle::rotate(p.heading, p.yaw_rate_radps * dt),
                 ..*p
             };
-            let distance = |dt: f64| a.gap(&later(&own, dt), &b, &later(&target, dt), &mut Warm::default()).distance_m;
-            let opening = a.gap(&own, &b, &target, &mut Warm::default()).opening_mps;
+            let after = |dt| gap((&a, &later(&own, dt)), (&b, &later(&target, dt))).distance_m;
+            let opening = gap((&a, &own), (&b, &target)).opening_mps;
             let dt = 1e-5;
-            let (before, after) = ((distance(0.0) - distance(-dt)) / dt, (distance(dt) - distance(0.0)) / dt);
-            // where the nearest corner changes the derivative jumps; it then lies between both sides
-            let (low, high) = (before.min(after) - 1e-3, before.max(after) + 1e-3);
-            prop_assert!(low <= opening && opening <= high, "{before} {opening} {after}");
+            let (left, right) = ((after(0.0) - after(-dt)) / dt, (after(dt) - after(0.0)) / dt);
+            // where the nearest corner changes the derivative jumps, and lies between both sides
+            let (low, high) = (left.min(right) - 1e-3, left.max(right) + 1e-3);
+            prop_assert!(low <= opening && opening <= high, "{left} {opening} {right}");
         }
     }
 }

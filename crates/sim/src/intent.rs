@@ -148,7 +148,7 @@ impl Route {
 }
 
 /// Radius of the tightest turn that the ship declares at her present speed, metres.
-pub fn turning_radius_m(ship: &Ship) -> f64 {
+fn turning_radius_m(ship: &Ship) -> f64 {
     ship.state.surge_mps.abs() / ship.model.limits().yaw_rate_radps_max
 }
 

@@ -1,7 +1,7 @@
 //! World stepping, vessel dynamics, hull contact and sensing: an encounter becomes a trace.
 //!
 //! Start at [`world`]: it holds the loop. One logical clock (`step * step_s`, never accumulated);
-//! all ships decide on one snapshot, then all move; the judge sees nothing but the [`record::Trace`].
+//! all ships decide on one snapshot, then all move; the judge sees the [`record::Trace`] alone.
 #![forbid(unsafe_code)]
 
 pub mod approach;
@@ -10,6 +10,7 @@ pub mod contact;
 pub mod ending;
 pub mod hull;
 pub mod intent;
+pub mod interval;
 pub mod nominal;
 pub mod pose;
 pub mod recorder;

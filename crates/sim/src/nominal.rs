@@ -4,10 +4,11 @@
 //! Ships do not react to one another here, so each goes from beat to beat on her own: in closed
 //! form while nothing changes, by her model in steps otherwise.
 
-use crate::approach::{Approach, Hulls, Interval};
+use crate::approach::Approach;
 use crate::check::check;
 use crate::ending::{Ending, Other};
-use crate::intent::{Route, Script, turning_radius_m};
+use crate::intent::{Route, Script};
+use crate::interval::{Hulls, Interval};
 use crate::recorder;
 use crate::ship::Ship;
 use record::{Encounter, Nominal, ShipTrack};
@@ -81,7 +82,7 @@ fn sail(encounter: &Encounter, mut own: Sailor, mut targets: Vec<Sailor>) -> Nom
     let run = encounter.run;
     let steps_a_beat = (run.beat_s / run.step_s).round() as u64;
     let goal_m = encounter.own.route.last().map_or(own.ship.pose.position_m, |w| w.position_m);
-    let mut ending = Ending::new(encounter, turning_radius_m(&own.ship));
+    let mut ending = Ending::new(encounter, own.ship.model.limits().yaw_rate_radps_max);
     // no hull geometry on the way: `settle` needs little of it once the track is known
     let mut approaches: Vec<Approach> = targets
         .iter()

@@ -3,17 +3,20 @@
 //! Time is `step * step_s`. Once a beat: sample, end?, ask the planner, steer everybody, all on
 //! the same snapshot; then the steps of the beat: all move, then every pair is looked at.
 
-use crate::approach::{Approach, Hulls, Interval};
+use crate::approach::Approach;
 use crate::check::check;
 use crate::contact::{Inertia, Party, collide};
 use crate::ending::{Ending, Other};
-use crate::intent::{Script, turning_radius_m};
+use crate::intent::Script;
+use crate::interval::{Hulls, Interval};
 use crate::pose::Pose;
 use crate::recorder;
 use crate::sensing::{Sensors, own_state};
 use crate::ship::Ship;
 use crate::vessel::{Helm, Model};
-use planner_api::{CommandError, Mission, Planner, Situation, TargetTrack};
+use planner_api::{
+    CommandError, FailureKind, Mission, Planner, PlannerFailure, Situation, TargetTrack,
+};
 use record::{
     Alert, Contact, ContactWith, Encounter, Order, Outcome, Pair, PlannerEvents, Purpose,
     ShipTrack, Streams, Trace, Visibility,
@@ -81,7 +84,15 @@ impl Pilot<'_> {
         self.beat.fetch_add(1, Ordering::Relaxed);
         let answer = catch_unwind(AssertUnwindSafe(|| f(self.planner, &self.mission)));
         self.beat.fetch_add(1, Ordering::Relaxed);
-        answer.map_err(|_| Outcome::PlannerPanicked)
+        answer.map_err(|payload| match payload.downcast_ref::<PlannerFailure>() {
+            None => Outcome::PlannerPanicked,
+            Some(failure) => match failure.kind {
+                FailureKind::Hung => Outcome::PlannerHung,
+                FailureKind::Crashed => Outcome::PlannerCrashed,
+                FailureKind::Protocol => Outcome::PlannerProtocol,
+                FailureKind::NonFinite => Outcome::PlannerNonFinite,
+            },
+        })
     }
 
     fn events(&mut self) -> PlannerEvents {
@@ -122,7 +133,7 @@ impl<'a> World<'a> {
             scripts: scripts.collect(),
             approaches: approaches.collect(),
             sensors: Sensors::new(&encounter.sensing, targets.len()),
-            ending: Ending::new(encounter, turning_radius_m(&own)),
+            ending: Ending::new(encounter, own.model.limits().yaw_rate_radps_max),
             own_track: recorder::track_of(&own, room),
             target_tracks: targets.iter().map(|t| recorder::track_of(t, room)).collect(),
             hull_m: targets.iter().map(|_| Vec::with_capacity(room)).collect(),

@@ -27,11 +27,11 @@ fn grazing(k: u32, step_s: f64) -> (Encounter, Orders) {
     let meeting =
         Meeting { target_course_rad, target_mps, target_length_m, miss_m, tcpa_s: 12.0, step_s };
     let mut encounter = meeting.encounter(kinematic(), kinematic());
-    if k % 3 == 0 {
+    if k.is_multiple_of(3) {
         let course_rad = course_rad + deg(40.0);
         encounter.targets[0].intent = Intent::Alter { at_s: 4.0, course_rad, speed_mps: 5.0 };
     }
-    let turn_rad = if k % 2 == 0 { 0.0 } else { deg(50.0) };
+    let turn_rad = if k.is_multiple_of(2) { 0.0 } else { deg(50.0) };
     (encounter, Orders(vec![(0.0, 0.0, 7.0), (6.0, turn_rad, 7.0)]))
 }
 
@@ -41,7 +41,7 @@ fn stepped_always(encounter: &Encounter, orders: &Orders, duration_s: f64) -> (b
     const STEP_S: f64 = 0.005;
     let start = |m: &record::Motion| State::ahead(m.position_m, m.psi_rad, m.speed_mps);
     let target = &encounter.targets[0];
-    let model = Model::of(&encounter.own.vessel).unwrap();
+    let model = Model::of(&encounter.own.vessel).expect("a kinematic vessel");
     let mut states = [start(&encounter.own.start), start(&target.start)];
     let outlines = [encounter.own.hull, target.hull];
     let hulls = outlines.map(|outline| Hull::new(&outline));
@@ -58,8 +58,12 @@ fn stepped_always(encounter: &Encounter, orders: &Orders, duration_s: f64) -> (b
         let t_s = k as f64 * STEP_S;
         // orders take effect at the beat, as in a run
         if k % 200 == 0 {
-            let &(_, course_rad, speed_mps) =
-                orders.0.iter().rev().find(|order| order.0 <= t_s + 1e-9).unwrap();
+            let &(_, course_rad, speed_mps) = orders
+                .0
+                .iter()
+                .rev()
+                .find(|order| order.0 <= t_s + 1e-9)
+                .expect("an order for time 0");
             helms[0] = Helm::over_ground(course_rad, speed_mps, calm);
             if let Intent::Alter { at_s, course_rad, speed_mps } = target.intent
                 && at_s <= t_s + 1e-9
@@ -95,8 +99,9 @@ fn insert(world: &mut PhysicsWorld, outline: &HullOutline, state: &State) -> Rig
         .pose(RapierPose::new(Vector::new(state.position_m.x, state.position_m.y), state.psi_rad))
         .can_sleep(false);
     let inertia = Inertia::of_outline(outline);
-    let collider = ColliderBuilder::new(SharedShape::convex_hull(&corners).unwrap())
-        .mass_properties(MassProperties::new(Vector::ZERO, inertia.mass_kg, inertia.yaw_kgm2));
+    let collider =
+        ColliderBuilder::new(SharedShape::convex_hull(&corners).expect("a convex outline"))
+            .mass_properties(MassProperties::new(Vector::ZERO, inertia.mass_kg, inertia.yaw_kgm2));
     world.insert(body, collider).0
 }
 
@@ -146,7 +151,8 @@ proptest! {
         bearing in -3.1f64..3.1, psi in -3.1f64..3.1, other_psi in -3.1f64..3.1,
         speed in 1f64..10.0, other_speed in 0f64..10.0, length in 6f64..60.0, yaw in -0.2f64..0.2,
     ) {
-        let outlines = [HullOutline::centred(8.45, 2.71), HullOutline::centred(length, length / 5.0)];
+        let outlines =
+            [HullOutline::centred(8.45, 2.71), HullOutline::centred(length, length / 5.0)];
         let hulls = outlines.map(|o| Hull::new(&o));
         let towards = geom::unit(bearing);
         // the second ship just off the first, found by pulling her in along the bearing
@@ -166,7 +172,10 @@ proptest! {
         };
         let second = Party {
             hull: &hulls[1],
-            pose: pose(towards.x * range, towards.y * range, other_psi, towards * -other_speed, -yaw),
+            pose: Pose {
+                position_m: towards * range,
+                ..pose(0.0, 0.0, other_psi, towards * -other_speed, -yaw)
+            },
             inertia: Inertia::of_outline(&outlines[1]),
         };
         let after = collide(&first, &second);
@@ -177,7 +186,8 @@ proptest! {
         let energy = |p: &Party<'_>, (v, r): (Vec2, f64)| {
             0.5 * (p.inertia.mass_kg * v.norm_squared() + p.inertia.yaw_kgm2 * r * r)
         };
-        let start = energy(&first, (first.pose.velocity_mps, yaw)) + energy(&second, (second.pose.velocity_mps, -yaw));
+        let start = energy(&first, (first.pose.velocity_mps, yaw))
+            + energy(&second, (second.pose.velocity_mps, -yaw));
         let end = energy(&first, after.first) + energy(&second, after.second);
         prop_assert!(end <= start * (1.0 + 1e-9), "{start} -> {end}");
         prop_assert!((after.impact.energy_lost_j - (start - end).max(0.0)).abs() < 1e-6 * start);

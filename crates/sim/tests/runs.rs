@@ -83,8 +83,10 @@ fn truncated_and_time_is_up() {
     assert!((there.end_s - (3000.0 - 66.8) / 7.0).abs() < 1.0, "{}", there.end_s);
 }
 
-/// Fails in one way at 20 s.
-struct Failing(fn(&AtomicU64) -> Command, std::sync::Arc<AtomicU64>);
+/// What a planner does at 20 s.
+type Failure = fn(&AtomicU64) -> Command;
+
+struct Failing(Failure, std::sync::Arc<AtomicU64>);
 
 impl Planner for Failing {
     fn reset(&mut self, _: &Mission) {}
@@ -97,7 +99,7 @@ impl Planner for Failing {
 #[test]
 fn planner_failures_are_outcomes() {
     let encounter = meeting(-90.0, 200.0).encounter(kinematic(), kinematic());
-    let cases: [(fn(&AtomicU64) -> Command, Outcome); 5] = [
+    let cases: [(Failure, Outcome); 5] = [
         (|_| panic!("planted"), Outcome::PlannerPanicked),
         (|_| Command::course_speed(f64::NAN, 7.0), Outcome::PlannerNonFinite),
         (|_| Command::course_speed(0.0, f64::INFINITY), Outcome::PlannerNonFinite),
@@ -243,10 +245,12 @@ proptest! {
 
     #[test]
     fn mirror_world_gives_mirror_tracks_bit_for_bit(
-        angle in -179.0..179.0, miss in -150.0..150.0, speed in 1.0..9.0, three_dof in any::<bool>(),
+        angle in -179.0..179.0, miss in -150.0..150.0, speed in 1.0..9.0,
+        three_dof in any::<bool>(),
     ) {
         prop_assume!(f64::abs(miss) > 0.01);
-        let (own, other) = if three_dof { (viknes(), viknes()) } else { (kinematic(), kinematic()) };
+        let vessel = if three_dof { viknes() } else { kinematic() };
+        let (own, other) = (vessel.clone(), vessel);
         let meeting = Meeting { target_mps: speed, ..meeting(angle, miss) };
         let encounter = meeting.encounter(own, other);
         let trace = run(&encounter, &mut Shy { course_rad: 0.0 });
@@ -264,10 +268,12 @@ proptest! {
 
     #[test]
     fn turning_and_shifting_the_world_changes_nothing(
-        angle in -179.0..179.0, miss in -150.0..150.0, turn in -3.0..3.0, x in -1e4..1e4, y in -1e4..1e4,
+        angle in -179.0..179.0, miss in -150.0..150.0,
+        turn in -3.0..3.0, x in -1e4..1e4, y in -1e4..1e4,
         three_dof in any::<bool>(),
     ) {
-        let (own, other) = if three_dof { (viknes(), viknes()) } else { (kinematic(), kinematic()) };
+        let vessel = if three_dof { viknes() } else { kinematic() };
+        let (own, other) = (vessel.clone(), vessel);
         let encounter = meeting(angle, miss).encounter(own, other);
         let shift = Vec2::new(x, y);
         let trace = run(&encounter, &mut Shy { course_rad: 0.0 });

@@ -101,3 +101,12 @@ fn a_yaw_in_a_seaway_is_a_held_course() {
     expect(&judgement, Check::R17Hold, Pass, "");
     expect(&judgement, Check::Turn, NotApplicable, "NO-TURN");
 }
+
+/// An encounter that begins inside stage 3: a close pass must have been predicted for 5 s first.
+#[test]
+fn the_moment_to_act_needs_five_seconds() {
+    let other = target(420.0, -420.0, 90.0, 3.0);
+    let judgement = judge(&Scene::new(own(3.0).hold(400.0), other));
+    expect(&judgement, Check::R17May, Pass, "HELD");
+    assert_eq!(verdict(&judgement, Check::R17May).t_s, Some(5.0));
+}

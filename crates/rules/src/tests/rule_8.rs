@@ -49,7 +49,7 @@ fn magnitude_is_no_question_for_a_ship_that_stands_on() {
 fn dribble_counts_small_turns_before_the_course_is_off() {
     let steps = |sizes: &[f64]| {
         let start = own(6.0).hold(50.0);
-        let turn = |script: Script, size: &f64| script.turn(*size, 4.0).hold(14.0);
+        let turn = |script: Script, size: &f64| script.turn(*size, 4.0).hold(17.0);
         judge(&Scene::new(sizes.iter().fold(start, turn).hold(400.0), head_on()))
     };
     expect(&steps(&[8.0, 8.0, 8.0, 8.0, 8.0]), Check::R8Dribble, Fail, "FAIL-8-DRIBBLE");

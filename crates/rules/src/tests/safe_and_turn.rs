@@ -99,7 +99,8 @@ fn a_port_turn_for_a_ship_to_starboard_fails_when_it_crosses_ahead() {
     let judgement = judge(&scene);
     expect(&judgement, Check::Turn, Fail, "FAIL-15-AHEAD");
     let text = verdict(&judgement, Check::Turn).sentence.clone().unwrap();
-    assert!(text.contains("before a vessel crossing from starboard, own ship altered 12 degrees to port and passed"), "{text}");
+    let told = "a vessel crossing from starboard, own ship altered 12 degrees to port and passed";
+    assert!(text.contains(told), "{text}");
     assert!(text.ends_with("m ahead of her bow. Rule 15."), "{text}");
 }
 

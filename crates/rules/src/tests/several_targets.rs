@@ -34,6 +34,9 @@ fn a_turn_that_endangers_a_third_ship_fails_8c() {
     let judgement = judge(&Scene::new(script(), head_on()).and(third));
     let found = of(&judgement, 0, Check::R8Third);
     assert_eq!((found.status, found.detail.as_ref()), (Fail, "FAIL-8C-TARGET-1"), "{found:#?}");
+    // one at risk before the turn is not newly endangered by it
+    let known = judge(&Scene::new(script(), head_on()).and(target(1700.0, 30.0, 180.0, 1.0)));
+    assert_eq!(of(&known, 0, Check::R8Third).status, Pass);
     let wide = target(1550.0, -900.0, 180.0, 2.0);
     let judgement = judge(&Scene::new(script(), head_on()).and(wide));
     assert_eq!(of(&judgement, 0, Check::R8Third).status, Pass);

@@ -85,7 +85,7 @@ mod tests {
         assert!((crash.surge_mps - expected).abs() < 1e-4, "{}", crash.surge_mps);
     }
 
-    /// Surge alone has the closed form u = a u0 / ((a + b u0) exp(a t) - b u0), a = 50/m, b = 135/m.
+    /// Surge alone, m u' = -(50 + 135 u) u, has the closed form below with a = 50/m, b = 135/m.
     #[test]
     fn integrator_is_of_fourth_order() {
         let (a, b, u0, t_s) = (50.0 / 3980.0, 135.0 / 3980.0, 9.0, 12.0);
