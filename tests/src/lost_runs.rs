@@ -36,7 +36,7 @@ fn each_way_to_fail_costs_its_own_encounters_only() {
     let folder = tempfile::tempdir().unwrap();
     campaign(folder.path(), "zhuang", 0.0);
     let good = rows(&folder.path().join("zhuang"));
-    let share = 0.002;
+    let share = 0.004;
     for (planner, outcome) in [
         ("panics", Outcome::PlannerPanicked),
         ("nan", Outcome::PlannerNonFinite),

@@ -6,6 +6,7 @@ use crate::spec::{CampaignFile, Overrides, RunTable};
 use encounter::{Drawn, Generator, Model};
 use record::{Encounter, EncounterId, Seed};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What a binary knows of its own making.
@@ -44,22 +45,71 @@ pub struct RulesChoice {
     pub name: String,
     /// BLAKE3 of its text.
     pub hash: String,
-    /// Its text.
+    /// Its text; empty where each encounter has the profile of its own ship's length.
     pub text: String,
+    /// The profiles by own ship's length, by name, where that was asked for.
+    pub by_own_length: BTreeMap<String, String>,
 }
 
+/// The name that asks for the profile of each own ship's length.
+const BY_OWN_LENGTH: &str = "by-own-length";
+
 impl RulesChoice {
+    /// The rule set of this name, or the profiles that the own ships of a source need.
+    pub(crate) fn find(
+        name: &str,
+        source: &Source,
+        find_rules: crate::spec::FindRules<'_>,
+    ) -> Result<Self, Error> {
+        if name != BY_OWN_LENGTH {
+            return Self::new(name, find_rules(name)?);
+        }
+        let Source::Fixed(encounters) = source else {
+            return Err(Error::input(format!(
+                "rules = \"{BY_OWN_LENGTH}\" is for situations; name a rule set for a model"
+            )));
+        };
+        let mut by_own_length = BTreeMap::new();
+        let mut hasher = blake3::Hasher::new();
+        for encounter in encounters {
+            let profile = rules::RuleSet::name_by_length(encounter.own.hull.length_m);
+            if !by_own_length.contains_key(profile) {
+                by_own_length.insert(profile.to_owned(), find_rules(profile)?);
+            }
+        }
+        by_own_length.values().for_each(|text| {
+            hasher.update(text.as_bytes());
+        });
+        let hash = hasher.finalize().to_hex().to_string();
+        Ok(Self { name: name.to_owned(), hash, text: String::new(), by_own_length })
+    }
+
     /// A rule set from its text; refuses one that contradicts itself.
     pub fn new(name: &str, text: String) -> Result<Self, Error> {
         rules::RuleSet::parse(&text).map_err(|e| Error::input(format!("rule set {name}: {e}")))?;
         let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
-        Ok(Self { name: name.to_owned(), hash, text })
+        Ok(Self { name: name.to_owned(), hash, text, by_own_length: BTreeMap::new() })
     }
 
-    /// The parsed rule set.
-    pub fn rule_set(&self) -> Result<rules::RuleSet, Error> {
-        rules::RuleSet::parse(&self.text)
-            .map_err(|e| Error::input(format!("rule set {}: {e}", self.name)))
+    /// The parsed rule sets: by name, or one under the empty name for every encounter.
+    pub fn rule_sets(&self) -> Result<BTreeMap<String, rules::RuleSet>, Error> {
+        let parse = |name: &str, text: &str| {
+            rules::RuleSet::parse(text).map_err(|e| Error::input(format!("rule set {name}: {e}")))
+        };
+        if self.by_own_length.is_empty() {
+            return Ok(BTreeMap::from([(String::new(), parse(&self.name, &self.text)?)]));
+        }
+        let sets = self.by_own_length.iter();
+        sets.map(|(name, text)| Ok((name.clone(), parse(name, text)?))).collect()
+    }
+
+    /// The key into [`Self::rule_sets`] for an own ship of this length, metres.
+    pub fn key(&self, own_length_m: f64) -> &str {
+        if self.by_own_length.is_empty() {
+            ""
+        } else {
+            rules::RuleSet::name_by_length(own_length_m)
+        }
     }
 }
 

@@ -195,7 +195,7 @@ impl CampaignFile {
         }
         let source = Source::of(self, situations)?;
         let rules_name = overrides.rules.as_ref().unwrap_or(&self.rules);
-        let rules = crate::plan::RulesChoice::new(rules_name, find_rules(rules_name)?)?;
+        let rules = crate::plan::RulesChoice::find(rules_name, &source, find_rules)?;
         let none = toml::Table::new();
         names
             .iter()

@@ -6,6 +6,7 @@ use crate::{Error, Plan, row};
 use planner_api::{Planner, PlannerEntry, Registry};
 use record::verdict::Judgement;
 use record::{Digest, Encounter, EncounterId, Outcome, RunRow, Trace};
+use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU64;
 
 /// Everything that is made once for a campaign and shared by all workers.
@@ -14,7 +15,7 @@ pub struct Shop<'a> {
     plan: &'a Plan,
     entry: &'a PlannerEntry,
     source: EncounterSource,
-    rules: rules::RuleSet,
+    rules: BTreeMap<String, rules::RuleSet>,
 }
 
 impl<'a> Shop<'a> {
@@ -24,7 +25,7 @@ impl<'a> Shop<'a> {
             plan,
             entry: registry.get(&plan.planner.name).map_err(|e| Error::input(e.to_string()))?,
             source: plan.encounters_source()?,
-            rules: plan.rules.rule_set()?,
+            rules: plan.rules.rule_sets()?,
         })
     }
 
@@ -58,7 +59,7 @@ pub struct Run {
 pub struct Worker<'a> {
     shop: &'a Shop<'a>,
     planner: Box<dyn Planner>,
-    judge: rules::Judge,
+    judges: BTreeMap<String, rules::Judge>,
     scratch: sim::Scratch,
 }
 
@@ -74,7 +75,11 @@ impl<'a> Worker<'a> {
         Ok(Self {
             shop,
             planner: shop.planner()?,
-            judge: rules::Judge::new(shop.rules.clone()),
+            judges: shop
+                .rules
+                .iter()
+                .map(|(name, rules)| (name.clone(), rules::Judge::new(rules.clone())))
+                .collect(),
             scratch: sim::Scratch::default(),
         })
     }
@@ -110,12 +115,15 @@ impl<'a> Worker<'a> {
         if trace.outcome.is_planner_failure() {
             self.planner = self.shop.planner()?;
         }
-        let judgement = self.judge.judge(&trace);
+        let key = self.shop.plan.rules.key(encounter.own.hull.length_m);
+        let judge = self.judges.get_mut(key).expect("the plan found a profile for every length");
+        let judgement = judge.judge(&trace);
         let row = match trace.outcome {
             // what a panic leaves behind depends on how far it came: id and outcome alone count
-            Outcome::PlannerPanicked | Outcome::PlannerCrashed | Outcome::PlannerHung => {
-                row::of_lost_run(&encounter, trace.outcome)
-            }
+            Outcome::PlannerPanicked
+            | Outcome::PlannerCrashed
+            | Outcome::PlannerHung
+            | Outcome::PlannerProtocol => row::of_lost_run(&encounter, trace.outcome),
             _ => row::of_run(&encounter, &trace, Digest::of_trace(&trace), &judgement),
         };
         Ok(Run { encounter, trace, judgement, row, rejected })

@@ -66,7 +66,9 @@ mod tests {
         }
 
         #[test]
-        fn rotation_keeps_length_and_adds_angles(x in -1e3f64..1e3, y in -1e3f64..1e3, a in -7f64..7.0) {
+        fn rotation_keeps_length_and_adds_angles(
+            x in -1e3f64..1e3, y in -1e3f64..1e3, a in -7f64..7.0,
+        ) {
             prop_assume!(x.abs() + y.abs() > 1e-3);
             let v = Vec2::new(x, y);
             let r = rotate(v, a);

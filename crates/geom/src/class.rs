@@ -128,7 +128,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn mirror_exchanges_the_crossings(beta in -3.1f64..3.1, alpha in -3.1f64..3.1, h in 0.05f64..0.4) {
+        fn mirror_exchanges_the_crossings(
+            beta in -3.1f64..3.1, alpha in -3.1f64..3.1, h in 0.05f64..0.4,
+        ) {
             prop_assume!(beta != 0.0);
             let h = HeadOnSector::wide(h);
             prop_assert_eq!(classify(-beta, -alpha, h), classify(beta, alpha, h).mirrored());

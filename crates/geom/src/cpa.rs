@@ -67,14 +67,20 @@ mod tests {
 
     proptest! {
         #[test]
-        fn cpa_is_minimal(x in -3e3f64..3e3, y in -3e3f64..3e3, vx in -20f64..20.0, vy in -20f64..20.0, t in 0f64..600.0) {
+        fn cpa_is_minimal(
+            x in -3e3f64..3e3, y in -3e3f64..3e3,
+            vx in -20f64..20.0, vy in -20f64..20.0, t in 0f64..600.0,
+        ) {
             let (r, w) = (Vec2::new(x, y), Vec2::new(vx, vy));
             let c = cpa(r, w);
             prop_assert!(c.dcpa_m <= (r + w * t).norm() + 1e-6 || c.tcpa_s.is_none());
         }
 
         #[test]
-        fn segment_minimum_is_minimal(x in -3e2f64..3e2, y in -3e2f64..3e2, dx in -20f64..20.0, dy in -20f64..20.0, s in 0f64..1.0) {
+        fn segment_minimum_is_minimal(
+            x in -3e2f64..3e2, y in -3e2f64..3e2,
+            dx in -20f64..20.0, dy in -20f64..20.0, s in 0f64..1.0,
+        ) {
             let (a, d) = (Vec2::new(x, y), Vec2::new(dx, dy));
             let (min, at) = segment_min_distance(a, a + d);
             prop_assert!((0.0..=1.0).contains(&at));

@@ -1,9 +1,9 @@
 //! How a planner from outside ends its own encounter.
 //!
-//! `plan` returns an order and nothing else, because a planner in Rust that cannot answer panics, and
-//! the simulator already turns an unwinding into an outcome. A planner behind a process or a library
-//! has more to say than that, so its adapter unwinds with this payload, and the simulator tells it
-//! from a plain panic by `downcast_ref::<PlannerFailure>()`.
+//! `plan` returns an order and nothing else, because a planner in Rust that cannot answer panics,
+//! and the simulator already turns an unwinding into an outcome. A planner behind a process or a
+//! library has more to say than that, so its adapter unwinds with this payload, and the simulator
+//! tells it from a plain panic by `downcast_ref::<PlannerFailure>()`.
 
 /// What went wrong; each kind is one outcome word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

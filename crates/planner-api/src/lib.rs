@@ -3,10 +3,10 @@
 //! A planner's author depends on this crate alone, implements [`Planner`], runs the
 //! [`conformance`] kit, and adds one line to a [`Registry`].
 //!
-//! The contract: [`Planner::reset`] once an encounter, then [`Planner::plan`] once a beat. A planner
-//! never sees the truth, a wall clock, or random numbers other than its own stream. A planner that
-//! panics, never returns, or orders something non-finite or out of range ends that encounter with
-//! an outcome that counts against it.
+//! The contract: [`Planner::reset`] once an encounter, then [`Planner::plan`] once a beat. A
+//! planner never sees the truth, a wall clock, or random numbers other than its own stream. A
+//! planner that panics, never returns, or orders something non-finite or out of range ends that
+//! encounter with an outcome that counts against it.
 #![forbid(unsafe_code)]
 
 pub mod command;
@@ -21,6 +21,7 @@ pub mod stream;
 pub use command::{Alert, Command, CommandError, Order};
 pub use events::PlannerEvents;
 pub use failure::{FailureKind, PlannerFailure};
+pub use geom::Vec2;
 pub use mission::{Mission, OwnShip, Waypoint};
 pub use registry::{Options, OptionsError, PlannerEntry, Registry};
 pub use situation::{OwnState, Situation, TargetTrack};

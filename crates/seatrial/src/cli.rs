@@ -40,6 +40,12 @@ pub(crate) enum Command {
     },
     /// List the planners, a line each
     Planners,
+    /// Measure encounters per second, the floor, and the share of each stage
+    Speed {
+        /// Encounters to run for each figure
+        #[arg(long, value_name = "N", default_value_t = 200)]
+        encounters: u64,
+    },
     /// Check a file of planner vectors, and print the largest error of each column
     #[command(after_help = EXIT_CODES)]
     Vectors {

@@ -52,7 +52,8 @@ fn narrow(summary: &Summary) -> String {
         let fails = s.turn_direction.get(&Status::Fail).copied().unwrap_or(0);
         write!(
             text,
-            "{} (n = {})\n  collision {}\n  radius    {}\n  turn fail {fails}\n  reaction  {}\n  CPA p01   {}\n",
+            "{} (n = {})\n  collision {}\n  radius    {}\n  turn fail {fails}\n  \
+             reaction  {}\n  CPA p01   {}\n",
             s.name,
             s.n,
             rate(&s.collision),

@@ -13,6 +13,10 @@ pub struct Encounter {
     pub id: u32,
     /// Class at first risk.
     pub class: EncounterClass,
+    /// Own course at first risk, radians clockwise from north.
+    pub course_rad: f64,
+    /// The range closes.
+    pub closing: bool,
     /// Relative bearing now, radians, positive to starboard.
     pub beta_rad: f64,
     /// The class was in doubt: it may be a crossing to the other ship.
@@ -28,9 +32,10 @@ pub struct Encounter {
 pub struct Moment {
     /// Simulated time, seconds.
     pub t_s: f64,
-    /// Distance hull to hull (between centres where the mission says so), metres.
+    /// Distance between reference points, as the stages of an encounter are measured, metres.
     pub range_m: f64,
-    /// Predicted distance at the present velocities, likewise, metres.
+    /// Predicted distance hull to hull (between centres where the mission says so) at the present
+    /// velocities, metres.
     pub dcpa_m: f64,
     /// Rate of closing, m/s; negative when the range opens.
     pub closing_mps: f64,
@@ -47,12 +52,22 @@ impl Encounter {
         let may_act = !matches!(class, EncounterClass::CrossingPort | EncounterClass::Overtaken);
         let (id, beta_rad) = (track.id, pose.beta_rad);
         let doubtful = pose.alpha_rad.abs() <= OVERTAKING_SECTOR_RAD;
-        Self { id, class, beta_rad, doubtful, may_act, too_close_since_s: None }
+        Self {
+            id,
+            class,
+            course_rad: own.cog_rad,
+            closing: true,
+            beta_rad,
+            doubtful,
+            may_act,
+            too_close_since_s: None,
+        }
     }
 
     /// Lets a stand-on ship act once the other one has plainly done nothing.
     pub fn watch(&mut self, moment: Moment, options: &CorrectedOptions) {
         self.beta_rad = moment.beta_rad;
+        self.closing = moment.closing_mps > 0.0;
         if self.may_act {
             return;
         }
@@ -81,6 +96,13 @@ impl Encounter {
             EncounterClass::Overtaken => self.beta_rad > 0.0,
             _ => false,
         }
+    }
+
+    /// The course to port of which a return to the route must not go yet: Rule 17(c) looks at the
+    /// whole time until the closest point.
+    pub fn port_limit_rad(&self) -> Option<f64> {
+        let crossing = self.class == EncounterClass::CrossingPort;
+        (crossing && self.closing).then_some(self.course_rad)
     }
 
     /// Whether the target has to be left on own port hand (port to port; astern of it).
@@ -117,6 +139,8 @@ mod tests {
         Encounter {
             id: 1,
             class: EncounterClass::CrossingPort,
+            course_rad: 0.0,
+            closing: true,
             beta_rad: -1.0,
             doubtful: false,
             may_act: false,
@@ -134,7 +158,7 @@ mod tests {
         let mut encounter = stand_on();
         for (t_s, range_m, dcpa_m, may_act) in [
             (0.0, 800.0, 0.0, false),
-            (10.0, 699.0, 0.0, false),
+            (10.0, 689.0, 0.0, false),
             (15.0, 650.0, 150.0, false),
             // the other ship seemed to act: the wait begins again
             (16.0, 640.0, 50.0, false),

@@ -12,6 +12,7 @@
 //! | returns too early (F14) | only when the wish is clear of every target | [`planner`] |
 
 pub mod encounter;
+pub mod gap;
 pub mod options;
 pub mod path;
 pub mod planner;

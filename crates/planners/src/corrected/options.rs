@@ -17,17 +17,19 @@ pub struct CorrectedOptions {
     pub alteration_deg: f64,
     /// Distance planned beyond the safety radius, metres.
     pub margin_m: f64,
-    /// A target is a risk when nearer than this, hull to hull, metres (Hagen et al. 2023, R_2).
+    /// A target is a risk when nearer than this, metres (Hagen et al. 2023, R_2).
     pub risk_range_m: f64,
     /// ... with at most this time to CPA, seconds.
     pub risk_tcpa_s: f64,
-    /// Stand-on in a crossing: holds outside this range, hull to hull, metres (the same, R_3).
+    /// Stand-on in a crossing: holds outside this range, metres (the same, R_3 = 700, and a little
+    /// patience).
     pub stand_on_range_m: f64,
     /// Stand-on when overtaken: holds outside this range, metres ...
     pub overtaken_range_m: f64,
     /// ... and outside this time at the rate of closing, seconds.
     pub overtaken_time_s: f64,
-    /// Stand-on acts only for a predicted distance below this, hull to hull, metres (r_min).
+    /// Stand-on acts only for a predicted distance below this, hull to hull, metres (r_min =
+    /// 100, less what the estimate may be off).
     pub stand_on_dcpa_m: f64,
     /// ... that has lasted this long, seconds: the other ship's inaction must be apparent.
     pub stand_on_patience_s: f64,
@@ -50,10 +52,10 @@ impl Default for CorrectedOptions {
             margin_m: 60.0,
             risk_range_m: 1900.0,
             risk_tcpa_s: 600.0,
-            stand_on_range_m: 700.0,
-            overtaken_range_m: 400.0,
-            overtaken_time_s: 70.0,
-            stand_on_dcpa_m: 100.0,
+            stand_on_range_m: 690.0,
+            overtaken_range_m: 390.0,
+            overtaken_time_s: 68.0,
+            stand_on_dcpa_m: 95.0,
             stand_on_patience_s: 6.0,
             trusted_share: 0.6,
             lag_s: 3.0,

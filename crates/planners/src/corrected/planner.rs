@@ -1,15 +1,14 @@
 //! The corrected planner's beat.
 
 use super::encounter::{Encounter, Moment};
+use super::gap::Gap;
 use super::options::CorrectedOptions;
 use super::path::{Agility, Path, Trial};
 use super::search::{self, Reference, Target};
 use crate::clearance::Clearance;
 use crate::guidance::{Guidance, Wish};
-use geom::{Vec2, angle, cpa, units::deg, wrap};
-use planner_api::{
-    Alert, Command, Mission, OwnState, Planner, PlannerEvents, Situation, TargetTrack,
-};
+use geom::{HullOutline, Vec2, angle, cpa, units::deg, wrap};
+use planner_api::{Alert, Command, Mission, OwnState, Planner, PlannerEvents, Situation};
 
 /// Part of the margin that may be lost before a manoeuvre is chosen anew: what the prediction and
 /// the ship's real turn differ by.
@@ -43,6 +42,7 @@ struct Fixed {
     clearance: Clearance,
     agility: Agility,
     safety_radius_m: f64,
+    hulls: Option<HullOutline>,
 }
 
 /// A manoeuvre under way.
@@ -78,10 +78,14 @@ impl ZhuangCorrected {
         for track in situation.tracks {
             let hulls_m = fixed.clearance.hulls_m(track);
             let plan_m = fixed.clearance.radius_m(track) + self.options.margin_m;
-            let now = Now::new(situation.t_s, own, wish, track, hulls_m);
+            let hulls = fixed.hulls.filter(|_| fixed.clearance.hulls_m(track) > 0.0);
+            let gap = Gap { own, track, hulls };
+            let now = Now::new(situation.t_s, wish, gap, hulls_m);
             let known = self.encounters.iter().position(|e| e.id == track.id);
             let encounter = match known {
-                Some(i) if now.opens && now.moment.range_m + hulls_m > plan_m => {
+                Some(i)
+                    if now.opens && track.position_m.metric_distance(&own.position_m) > plan_m =>
+                {
                     self.encounters.swap_remove(i);
                     None
                 }
@@ -116,7 +120,7 @@ impl ZhuangCorrected {
     }
 
     fn act(&mut self, own: &OwnState, wish: Wish, fixed: Fixed) -> Trial {
-        let straight_on = Trial { course_rad: wish.course_rad(), speed_mps: wish.speed_mps };
+        let straight_on = self.straight_on(wish);
         let must_act = self.targets.iter().any(|t| t.encounter.is_some_and(|e| e.may_act));
         let Some(mut manoeuvre) = self.manoeuvre else {
             if !must_act || self.shortfall_m(own, straight_on, fixed) <= 0.0 {
@@ -168,6 +172,17 @@ impl ZhuangCorrected {
         })
     }
 
+    /// The wish, but not to port of the course that a stand-on ship had when risk began.
+    fn straight_on(&self, wish: Wish) -> Trial {
+        let mut course_rad = wish.course_rad();
+        for limit_rad in self.encounters.iter().filter_map(Encounter::port_limit_rad) {
+            if wrap(course_rad - limit_rad) < 0.0 {
+                course_rad = limit_rad;
+            }
+        }
+        Trial { course_rad, speed_mps: wish.speed_mps }
+    }
+
     fn search(&mut self, own: &OwnState, reference: Reference, fixed: Fixed) -> search::Choice {
         self.events.passes += 1;
         search::cheapest(own, reference, &self.targets, fixed.agility, &mut self.path)
@@ -188,6 +203,7 @@ impl Planner for ZhuangCorrected {
             clearance: Clearance::new(mission, radius, unknown_length_m),
             agility: Agility::new(&mission.own, trusted_share, lag_s),
             safety_radius_m: mission.safety_radius_m,
+            hulls: Some(HullOutline::centred(mission.own.length_m, mission.own.beam_m)),
         });
         self.encounters.clear();
         self.manoeuvre = None;
@@ -244,13 +260,13 @@ struct Now {
 }
 
 impl Now {
-    fn new(t_s: f64, own: &OwnState, wish: Wish, track: &TargetTrack, hulls_m: f64) -> Self {
+    fn new(t_s: f64, wish: Wish, gap: Gap<'_>, hulls_m: f64) -> Self {
+        let Gap { own, track, .. } = gap;
         let los_m = track.position_m - own.position_m;
         let relative = |own_mps: Vec2| track.velocity_mps - own_mps;
         let present = cpa(los_m, relative(own.velocity_mps));
         let wished = cpa(los_m, relative(wish.velocity_mps()));
-        let range_m = los_m.norm();
-        let closing_mps = -los_m.dot(&relative(own.velocity_mps)) / range_m.max(1e-9);
+        let closing_mps = -los_m.dot(&relative(own.velocity_mps)) / los_m.norm().max(1e-9);
         let mut risk = (f64::INFINITY, f64::INFINITY);
         for prediction in [present, wished] {
             let ahead_s = prediction.tcpa_s.filter(|&t| t > 0.0);
@@ -258,10 +274,15 @@ impl Now {
                 risk = (prediction.dcpa_m, tcpa_s);
             }
         }
-        let (dcpa_m, range_m) = (present.dcpa_m - hulls_m, range_m - hulls_m);
-        let beta_rad = wrap(angle::direction(los_m) - own.psi_rad);
+        let moment = Moment {
+            t_s,
+            range_m: los_m.norm(),
+            dcpa_m: gap.least_m(present.tcpa_s.unwrap_or(0.0).max(0.0)),
+            closing_mps,
+            beta_rad: wrap(angle::direction(los_m) - own.psi_rad),
+        };
         Self {
-            moment: Moment { t_s, range_m, dcpa_m, closing_mps, beta_rad },
+            moment,
             opens: risk.1.is_infinite(),
             risk_dcpa_m: risk.0 - hulls_m,
             risk_tcpa_s: risk.1,

@@ -1,7 +1,9 @@
 //! Random encounters like those of the default campaign, in the small closed loop.
 
 use crate::scene::{Run, Scene, Vessel, planner};
-use geom::{EncounterClass, HeadOnSector, Relative, Vec2, angle, classify, units::deg};
+use geom::{
+    EncounterClass, HeadOnSector, HullOutline, Relative, Vec2, angle, classify, units::deg,
+};
 use planner_api::PlannerStream;
 use std::collections::BTreeMap;
 
@@ -42,9 +44,17 @@ pub(crate) fn encounter(stream: &mut PlannerStream) -> (Scene, EncounterClass) {
     }
 }
 
-/// Distance from hull to hull, at least: both lengths are taken as if they pointed at each other.
+/// The gap between the hulls along the line of sight at CPA: at most the distance, by a few metres.
 fn hull_m(run: &Run, scene: &Scene) -> f64 {
-    run.range_m_min() - 0.5 * (8.0 + scene.target_length_m.unwrap_or(0.0))
+    let cpa = run.cpa[0];
+    let length_m = scene.target_length_m.unwrap_or(0.0);
+    let reach_m = |length_m: f64, beam_m: f64, bearing_rad: f64| {
+        let corners = HullOutline::centred(length_m, beam_m).corners_body_m();
+        corners.iter().map(|c| c.dot(&angle::unit(bearing_rad))).fold(0.0, f64::max)
+    };
+    cpa.range_m
+        - reach_m(8.0, 2.5, cpa.bearing_rad)
+        - reach_m(length_m, 0.2 * length_m, cpa.contact_rad)
 }
 
 /// What is wrong with a run, in the judge's sense but with this file's simple measures.
@@ -56,8 +66,8 @@ fn fault(run: &Run, scene: &Scene, class: EncounterClass) -> Option<&'static str
     let slowest_mps = run.beats.iter().filter(|b| b.t_s < until).map(|b| b.speed_mps);
     let slowed = slowest_mps.fold(f64::INFINITY, f64::min) <= 0.5 * scene.cruise_mps;
     let apparent = starboard_deg.max(port_deg) >= 30.0 || slowed;
-    // r_min of the default rule set
-    if hull_m(run, scene) < 100.0 {
+    // r_min of the default rule set is 100 m; below a prediction of 95 a stand-on ship acts
+    if hull_m(run, scene) < 90.0 {
         return Some("too close");
     }
     match class {

@@ -50,7 +50,7 @@ pub(super) fn finish(
     let summary = summarise(plan, &finished);
     files::write(&dir.join("summary.json"), summary.to_json().as_bytes())?;
     let cases = cases(plan, registry, &finished)?;
-    let card = card(plan, dir)?;
+    let card = card(plan)?;
     let tallies = &finished.tallies;
     report::write(dir, &ReportInput { card: &card, summary: &summary, tallies, cases: &cases })
         .map_err(|e| Error::Fault(format!("failed to {e}")))?;
@@ -90,7 +90,7 @@ pub(super) fn case(run: Run) -> Case {
 }
 
 /// What a report says of the plan.
-fn card(plan: &Plan, dir: &Path) -> Result<Card, Error> {
+fn card(plan: &Plan) -> Result<Card, Error> {
     let mut resolved = Vec::new();
     let json = plan.json()?;
     for key in ["seed", "encounters_per_stratum", "planner", "run", "source", "build"] {
@@ -104,7 +104,8 @@ fn card(plan: &Plan, dir: &Path) -> Result<Card, Error> {
         tool: format!("seatrial {}", plan.build.tool_version),
         distance: plan.run.distance,
         safety_radius_m: plan.run.safety_radius_m,
-        replay_command: format!("seatrial replay {} {{id}}", folder_shown(dir)),
+        // not the folder itself: two runs into two folders are byte for byte the same
+        replay_command: "seatrial replay DIR {id}".to_owned(),
         resolved,
         not_claimed: Vec::new(),
     })
@@ -154,7 +155,7 @@ pub(super) fn read_back(plan: &Plan, folder: &Folder) -> Result<PlannerResult, E
     for row in table::read_rows(dir.join("runs.parquet")).map_err(damaged)? {
         tallies.add(&row.map_err(damaged)?);
     }
-    Ok(PlannerResult { card: card(plan, dir)?, summary, tallies, link: link(dir) })
+    Ok(PlannerResult { card: card(plan)?, summary, tallies, link: link(dir) })
 }
 
 /// Writes the side-by-side of several planners.

@@ -15,7 +15,7 @@ pub(super) fn run(file: &Path) -> Result<Ended, Error> {
         .map_err(|e| Error::input(format!("{}: {e}", file.display())))?;
     let passes = report.relative_error_max <= RELATIVE_ERROR_MAX;
     println!(
-        "{} rows; largest relative error {:.2e}, of the {} bound in line {}; {} {RELATIVE_ERROR_MAX:e}",
+        "{} rows; largest relative error {:.2e} ({} bound, line {}), {} {RELATIVE_ERROR_MAX:e}",
         report.rows,
         report.relative_error_max,
         report.side_worst,

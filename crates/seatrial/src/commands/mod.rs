@@ -7,6 +7,7 @@ mod finish;
 mod intervals;
 mod planners;
 mod replay;
+mod speed;
 
 mod vectors;
 
@@ -20,6 +21,7 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Campaign(args) => campaign::run(&args, registry),
         Command::Replay { dir, encounter_id } => replay::run(&dir, &encounter_id, registry),
         Command::Planners => planners::run(&registry),
+        Command::Speed { encounters } => speed::run(encounters, &registry),
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),

@@ -1,1 +1,166 @@
-//! `speed`: encounters per second, the floor, and the share of each stage.
+//! `speed`: encounters per second, the floor under them, and the share of each stage.
+//!
+//! Each encounter is 20 simulated minutes of two 3-DOF vessels under the seed planner with every
+//! verdict. The floor integrates the same vessels at the same step in a bare loop: no planner, no
+//! hulls, no verdicts. Ratios come from one run; absolute numbers depend on the machine.
+
+use crate::embedded;
+use crate::exit::Ended;
+use campaign::{CampaignFile, Error, Overrides};
+use geom::{HullOutline, Vec2, unit};
+use planner_api::Registry;
+use record::{Digest, Encounter, Judgement, RunUntil, Trace, Vessel};
+use sim::vessel::{Helm, Model, State};
+use std::hint::black_box;
+use std::sync::atomic::AtomicU64;
+use std::time::Instant;
+
+const DURATION_S: f64 = 1200.0;
+const VESSEL: &str = "viknes";
+
+pub(super) fn run(encounters: u64, registry: &Registry) -> Result<Ended, Error> {
+    if encounters == 0 {
+        return Err(Error::input("--encounters 0 measures nothing; ask for at least 1"));
+    }
+    let bench = Bench::new(encounters, registry)?;
+    let mut stages = bench.stages()?;
+    let floor_s = stages.pop().map_or(0.0, |(_, seconds)| seconds);
+    let total_s: f64 = stages.iter().map(|(_, seconds)| seconds).sum();
+    let per_s = |seconds: f64| encounters as f64 / seconds;
+    println!(
+        "{encounters} encounters of 20 simulated minutes, two 3-DOF vessels, step {} s",
+        bench.step_s
+    );
+    println!("one core       {:>8.0} encounters/s", per_s(total_s));
+    println!(
+        "floor          {:>8.0} encounters/s (the same vessels in a bare loop)",
+        per_s(floor_s)
+    );
+    println!("cost           {:>8.2} times the floor's", total_s / floor_s);
+    for (stage, seconds) in &stages {
+        println!("  {stage:12} {:>8.1} %", 100.0 * seconds / total_s);
+    }
+    let one_s = bench.wall(1)?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let all_s = bench.wall(cores)?;
+    println!(
+        "{cores} threads      {:>8.0} encounters/s, {:.2} times one thread's",
+        cores as f64 * per_s(all_s),
+        cores as f64 * one_s / all_s
+    );
+    Ok(Ended::Done)
+}
+
+struct Bench<'a> {
+    encounters: Vec<Encounter>,
+    entry: &'a planner_api::PlannerEntry,
+    rules: rules::RuleSet,
+    step_s: f64,
+}
+
+impl<'a> Bench<'a> {
+    /// The default campaign's encounters, with two 3-DOF vessels and 20 minutes each.
+    fn new(count: u64, registry: &'a Registry) -> Result<Self, Error> {
+        let file = CampaignFile::parse(&embedded::campaign_text("quick")?, "quick")?;
+        let build = crate::build::build();
+        let plans =
+            file.resolve(&Overrides::default(), None, registry, &embedded::rules_text, &build)?;
+        let plan = &plans[0];
+        let source = plan.encounters_source()?;
+        let strata = plan.strata.len() as u64;
+        let encounters: Result<Vec<Encounter>, Error> = (0..count)
+            .map(|i| {
+                let mut encounter = source.draw((i % strata) as u32, i / strata)?.encounter;
+                for target in &mut encounter.targets {
+                    target.vessel = Vessel::Model(VESSEL.to_owned());
+                    target.hull = HullOutline { ..encounter.own.hull };
+                }
+                encounter.run.duration_s_max = DURATION_S;
+                encounter.run.until = RunUntil::TimeIsUp;
+                Ok(encounter)
+            })
+            .collect();
+        let entry = registry.get(&plan.planner.name).map_err(|e| Error::input(e.to_string()))?;
+        let rules =
+            rules::RuleSet::parse(&plan.rules.text).map_err(|e| Error::input(e.to_string()))?;
+        Ok(Self { encounters: encounters?, entry, rules, step_s: plan.run.step_s })
+    }
+
+    /// Seconds of each stage over all encounters on one core, the floor last.
+    fn stages(&self) -> Result<Vec<(&'static str, f64)>, Error> {
+        let mut planner =
+            (self.entry.make)(&self.entry.options).map_err(|e| Error::input(e.to_string()))?;
+        let mut scratch = sim::Scratch::default();
+        let mut judge = rules::Judge::new(self.rules.clone());
+        let beat = AtomicU64::new(0);
+        let mut spent = [0.0; 6];
+        for encounter in &self.encounters {
+            // every stage of one encounter, then the next, so that drift of the machine's speed
+            // falls on all of them alike
+            let (floor_s, ()) = timed(|| bare(encounter));
+            let (run_s, mut trace) =
+                timed(|| sim::run(encounter, planner.as_mut(), &mut scratch, &beat));
+            let (nominal_s, nominal) = timed(|| sim::nominal(encounter));
+            trace.nominal = nominal;
+            let (digest_s, digest) = timed(|| Digest::of_trace(&trace));
+            let (judge_s, judged): (f64, Judgement) = timed(|| judge.judge(&trace));
+            let (row_s, row) = timed(|| campaign::row::of_run(encounter, &trace, digest, &judged));
+            black_box::<(Trace, _)>((trace, row));
+            for (sum, seconds) in
+                spent.iter_mut().zip([run_s, nominal_s, digest_s, judge_s, row_s, floor_s])
+            {
+                *sum += seconds;
+            }
+        }
+        let names = ["run", "nominal", "digest", "verdicts", "row", "floor"];
+        Ok(names.into_iter().zip(spent).collect())
+    }
+
+    /// Wall-clock seconds in which each of `threads` threads does all encounters.
+    fn wall(&self, threads: usize) -> Result<f64, Error> {
+        let started = now();
+        std::thread::scope(|scope| {
+            let workers: Vec<_> =
+                (0..threads).map(|_| scope.spawn(|| self.stages().map(drop))).collect();
+            workers.into_iter().try_for_each(|worker| match worker.join() {
+                Ok(ended) => ended,
+                Err(_) => Err(Error::Fault("a measuring thread panicked".to_owned())),
+            })
+        })?;
+        Ok(started.elapsed().as_secs_f64())
+    }
+}
+
+/// Own ship turning as in an avoidance, the target straight ahead, nothing else.
+fn bare(encounter: &Encounter) {
+    let Some(model) = Model::of(&encounter.own.vessel) else { return };
+    let own = &encounter.own.start;
+    let other = &encounter.targets[0].start;
+    let mut ships = [own, other].map(|s| State::ahead(s.position_m, s.psi_rad, s.speed_mps));
+    let run = &encounter.run;
+    let beats = (run.duration_s_max / run.beat_s) as usize;
+    let steps = (run.beat_s / run.step_s).round() as usize;
+    let ahead = |s: &record::Motion| Helm {
+        psi_rad: s.psi_rad,
+        direction: unit(s.psi_rad),
+        speed_mps: s.speed_mps,
+    };
+    let helms = [ahead(own), ahead(other)];
+    for _ in 0..beats * steps {
+        for (ship, helm) in ships.iter_mut().zip(&helms) {
+            *ship = model.step(ship, helm, Vec2::zeros(), run.step_s);
+        }
+    }
+    black_box(ships);
+}
+
+#[expect(clippy::disallowed_methods, reason = "this command measures wall-clock time")]
+fn now() -> Instant {
+    Instant::now()
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (f64, T) {
+    let started = now();
+    let result = work();
+    (started.elapsed().as_secs_f64(), result)
+}
