@@ -143,7 +143,13 @@ impl Supervisor<'_> {
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
-            .and_then(|mut child| child.wait())
+            .and_then(|mut child| {
+                // `wait` closes the child's standard input, which tells it that we are gone
+                let open = child.stdin.take();
+                let ended = child.wait();
+                drop(open);
+                ended
+            })
             .map_err(Error::io("start", &self.program))?;
         Ok(match ended.code() {
             Some(0) => None,
