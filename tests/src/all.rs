@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod end_to_end;
+mod golden;
 mod killed;
 mod lost_runs;
 mod refusals;
