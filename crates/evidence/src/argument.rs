@@ -66,7 +66,12 @@ pub(crate) fn nodes(
     for (i, hazard) in HAZARDS.iter().enumerate() {
         let id = format!("G{}", i + 1);
         let of: Vec<&Claim> = claims.iter().filter(|claim| claim.hazard == *hazard).collect();
-        nodes.push(node(&id, "goal", format!("{}: {}", hazard.id, hazard.text), Some("S1")));
+        nodes.push(node(
+            &id,
+            "goal",
+            format!("{} is avoided: {}", hazard.id, hazard.text),
+            Some("S1"),
+        ));
         for claim in of {
             let text = if claim.n == 0 {
                 format!("{}: untested", claim.requirement)
@@ -91,8 +96,9 @@ pub(crate) fn nodes(
 
 const COLUMN: f64 = 196.0;
 const BOX: f64 = 180.0;
-const LEAF_TOP: f64 = 330.0;
+const LEAF_TOP: f64 = 296.0;
 const LEAF_STEP: f64 = 74.0;
+const LEAF_LETTERS: usize = 24;
 
 /// The tree as a whole SVG document.
 pub(crate) fn svg(nodes: &[Node]) -> String {
@@ -185,17 +191,18 @@ impl Art {
         };
         self.shapes.push_str(&shape);
         if node.kind == "solution" {
-            self.words(&node.text, (x - 46.0, y - 14.0), 26, "start");
+            self.words(&node.text, (x - 46.0, y - 14.0), LEAF_LETTERS, "start");
             let hash = node.sha256.as_deref().map_or("", |hash| &hash[..12]);
             let file = node.file.as_deref().unwrap_or("");
             let label = format!("{file} {hash}");
-            let lines = wrapped(&node.text, 26).len() as f64;
+            let lines = wrapped(&node.text, LEAF_LETTERS).len() as f64;
             self.small(&label, x - 46.0, y - 14.0 + 12.0 * lines);
         } else {
             let mark = if node.kind == "assumption" { " (A)" } else { "" };
             let text = format!("{}{mark}: {}", node.id, node.text);
-            let lines = wrapped(&text, 29).len() as f64;
-            self.words(&text, (x, y + 4.0 - 6.0 * (lines - 1.0)), 29, "middle");
+            let letters = if node.kind == "strategy" { 23 } else { 29 };
+            let lines = wrapped(&text, letters).len() as f64;
+            self.words(&text, (x, y + 4.0 - 6.0 * (lines - 1.0)), letters, "middle");
         }
     }
 

@@ -5,7 +5,7 @@ use crate::seal::{MANIFEST, Manifest, STATEMENT, VOLATILE, statement};
 use crate::sha256_hex;
 use crate::signature::SIGNATURE;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// Something wrong with one file of a pack.
@@ -89,27 +89,34 @@ pub fn inspect(files: &Files) -> (Vec<Problem>, Option<Manifest>) {
     (problems, manifest)
 }
 
+/// The manifest decides who is right about a file that it knows. Of the others (the volatile ones
+/// and the manifest) the statement has the only hash, so either may have been changed: both are
+/// named.
 fn against_statement(
     actual: &BTreeMap<String, String>,
     stated: &BTreeMap<String, String>,
     manifest: &Manifest,
     problems: &mut Vec<Problem>,
 ) {
-    for (path, sha256) in actual {
-        if path == STATEMENT || path == SIGNATURE {
+    let paths: BTreeSet<&String> = actual.keys().chain(stated.keys()).collect();
+    for path in paths {
+        if path == STATEMENT || path == SIGNATURE || actual.get(path) == stated.get(path) {
             continue;
         }
-        match stated.get(path) {
-            None => problems.push(Problem::new(path, "does not belong to the pack")),
-            Some(said) if said == sha256 => {}
-            Some(_) if manifest.files_sha256.get(path) == Some(sha256) => problems.push(
-                Problem::new(STATEMENT, format!("was changed: its hash of {path} is another")),
-            ),
-            Some(_) => problems.push(Problem::new(path, "was changed: its SHA-256 is another")),
+        let what = match (actual.get(path), stated.get(path)) {
+            (Some(_), Some(_)) => "was changed: its SHA-256 is another",
+            (Some(_), None) => "does not belong to the pack",
+            (None, _) => "is missing",
+        };
+        let unknown = path == MANIFEST || VOLATILE.contains(&path.as_str());
+        let kept = manifest.files_sha256.get(path) == actual.get(path);
+        if unknown || !kept {
+            problems.push(Problem::new(path, what));
         }
-    }
-    for path in stated.keys().filter(|path| !actual.contains_key(*path)) {
-        problems.push(Problem::new(path, "is missing"));
+        if unknown || kept {
+            let what = format!("was changed, or {path} was: its hash of {path} is another");
+            problems.push(Problem::new(STATEMENT, what));
+        }
     }
 }
 

@@ -185,6 +185,8 @@ const ITEMS_SHOWN: usize = 12;
 fn flatten(key: &str, value: &serde_json::Value, lines: &mut Vec<(String, String)>) {
     use serde_json::Value;
     match value {
+        // an option that was not taken says nothing
+        Value::Null => {}
         Value::Object(map) => {
             map.iter().for_each(|(name, value)| flatten(&format!("{key}.{name}"), value, lines));
         }
