@@ -210,7 +210,8 @@ impl Art {
         for (i, line) in wrapped(text, letters).iter().enumerate() {
             writeln!(
                 self.shapes,
-                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" fill=\"#1b1f24\">{}</text>",
+                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" \
+                 fill=\"#1b1f24\">{}</text>",
                 y + 12.0 * i as f64,
                 escape(line)
             )

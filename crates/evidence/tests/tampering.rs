@@ -5,6 +5,7 @@ use evidence::{
     Files, MANIFEST, Manifest, SIGNATURE, STATEMENT, VOLATILE, inspect, sha256_hex, statement,
 };
 use proptest::prelude::*;
+use proptest::sample::Index;
 use record::Seed;
 use std::collections::BTreeMap;
 
@@ -87,7 +88,11 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
-    fn a_flipped_bit_is_named(file in any::<prop::sample::Index>(), at in any::<prop::sample::Index>(), bit in 0u8..8) {
+    fn a_flipped_bit_is_named(
+        file in any::<Index>(),
+        at in any::<Index>(),
+        bit in 0u8..8,
+    ) {
         let mut files = pack();
         let path = file.get(&files.keys().cloned().collect::<Vec<_>>()).clone();
         let bytes = files.get_mut(&path).unwrap();
@@ -97,7 +102,7 @@ proptest! {
     }
 
     #[test]
-    fn a_dropped_file_is_named(file in any::<prop::sample::Index>()) {
+    fn a_dropped_file_is_named(file in any::<Index>()) {
         let mut files = pack();
         let path = file.get(&files.keys().cloned().collect::<Vec<_>>()).clone();
         files.remove(&path);
@@ -113,7 +118,7 @@ proptest! {
     }
 
     #[test]
-    fn a_renamed_file_is_named(file in any::<prop::sample::Index>()) {
+    fn a_renamed_file_is_named(file in any::<Index>()) {
         let mut files = pack();
         let path = file.get(&files.keys().cloned().collect::<Vec<_>>()).clone();
         let bytes = files.remove(&path).unwrap();
@@ -122,7 +127,7 @@ proptest! {
     }
 
     #[test]
-    fn swapped_files_are_named(a in any::<prop::sample::Index>(), b in any::<prop::sample::Index>()) {
+    fn swapped_files_are_named(a in any::<Index>(), b in any::<Index>()) {
         let mut files = pack();
         let paths: Vec<String> = files.keys().cloned().collect();
         let (a, b) = (a.get(&paths).clone(), b.get(&paths).clone());

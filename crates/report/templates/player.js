@@ -36,13 +36,15 @@ const pose = (s, x) => {
   return { n: at(s.north, x), e: at(s.east, x), psi: rad(turn(s.psi, x)), sog,
     vn: sog * Math.cos(cog), ve: sog * Math.sin(cog) };
 };
-const fixed = (v, d) => v === null || !Number.isFinite(v) ? '–' : v.toFixed(d).replace('-', '\u2212');
+const fixed = (v, d) => v === null || !Number.isFinite(v) ? '–' : v.toFixed(d).replace('-',
+  '\u2212');
 const deg360 = v => ((v % 360) + 360) % 360;
 const sample = () => Math.min(t / now.sample_s, now.ships[0].north.length - 1);
 
 function themed() {
   const style = getComputedStyle(document.documentElement);
-  for (const name of ['paper', 'text', 'muted', 'grid', 'own', 'target', 'fail', 'warn', 'good', 'nominal'])
+  for (const name of ['paper', 'text', 'muted', 'grid', 'own', 'target', 'fail', 'warn', 'good',
+    'nominal'])
     ink[name] = style.getPropertyValue('--' + name).trim();
 }
 function canvas(id, wide, high) {
@@ -64,7 +66,8 @@ function path(g, points, close) {
   if (close) g.closePath();
 }
 function line(g, points, colour, width, dash) {
-  g.strokeStyle = colour; g.lineWidth = width; g.setLineDash(dash || []); path(g, points); g.stroke();
+  g.strokeStyle = colour; g.lineWidth = width; g.setLineDash(dash || []); path(g, points);
+  g.stroke();
   g.setLineDash([]);
 }
 
@@ -75,7 +78,8 @@ function drawMap() {
   if (across) scale = width / across;
   else {
     const ns = now.ships.flatMap(s => s.north), es = now.ships.flatMap(s => s.east);
-    for (const side of [-now.safety_m, now.safety_m]) { ns.push(own.n + side); es.push(own.e + side); }
+    for (const side of [-now.safety_m, now.safety_m]) { ns.push(own.n + side);
+    es.push(own.e + side); }
     const low = [Math.min(...ns), Math.min(...es)], high = [Math.max(...ns), Math.max(...es)];
     n = (low[0] + high[0]) / 2; e = (low[1] + high[1]) / 2;
     const size = Math.max(high[0] - low[0], high[1] - low[1], 2 * now.safety_m, 50);
@@ -83,15 +87,19 @@ function drawMap() {
   }
   const px = (pn, pe) => [width / 2 + (pe - e) * scale, height / 2 - (pn - n) * scale];
   const body = (s, p) => s.hull.map(([f, r]) => px(
-    p.n + f * Math.cos(p.psi) - r * Math.sin(p.psi), p.e + f * Math.sin(p.psi) + r * Math.cos(p.psi)));
+    p.n + f * Math.cos(p.psi) - r * Math.sin(p.psi), p.e + f * Math.sin(p.psi) + r *
+      Math.cos(p.psi)));
   g.fillStyle = ink.muted;
-  for (const h of now.hazards) { path(g, h.map(p => px(p[0], p[1])), true); g.globalAlpha = .4; g.fill(); g.globalAlpha = 1; }
+  for (const h of now.hazards) { path(g, h.map(p => px(p[0], p[1])), true); g.globalAlpha = .4;
+  g.fill(); g.globalAlpha = 1; }
   const start = [now.ships[0].north[0], now.ships[0].east[0]];
   line(g, [start, ...now.route].map(p => px(p[0], p[1])), ink.grid, 1.5);
-  now.pairs.forEach((pair, i) => cone(g, px, scale, own, poses[i + 1], pair.obstacle_m, width + height));
+  now.pairs.forEach((pair, i) => cone(g, px, scale, own, poses[i + 1], pair.obstacle_m, width +
+    height));
   g.globalAlpha = .13; g.lineJoin = 'round';
   if (now.distance === 'hull') {
-    g.strokeStyle = ink.own; g.lineWidth = 2 * now.safety_m * scale; path(g, body(now.ships[0], own), true); g.stroke();
+    g.strokeStyle = ink.own; g.lineWidth = 2 * now.safety_m * scale;
+    path(g, body(now.ships[0], own), true); g.stroke();
   } else {
     const c = px(own.n, own.e); g.fillStyle = ink.own; g.beginPath();
     g.arc(c[0], c[1], now.safety_m * scale, 0, 2 * Math.PI); g.fill();
@@ -108,7 +116,8 @@ function drawMap() {
     if (tcpa === null || tcpa <= 0) return;
     const ends = [own, poses[i + 1]].map(p => px(p.n + p.vn * tcpa, p.e + p.ve * tcpa));
     line(g, ends, ink.warn, 1, [3, 3]);
-    for (const p of ends) { g.strokeStyle = ink.warn; g.lineWidth = 1.5; g.beginPath(); g.arc(p[0], p[1], 4, 0, 2 * Math.PI); g.stroke(); }
+    for (const p of ends) { g.strokeStyle = ink.warn; g.lineWidth = 1.5; g.beginPath();
+    g.arc(p[0], p[1], 4, 0, 2 * Math.PI); g.stroke(); }
   });
   now.ships.forEach((s, i) => {
     const p = poses[i], colour = i ? ink.target : ink.own, c = px(p.n, p.e);
@@ -124,7 +133,8 @@ function cone(g, px, scale, own, target, radius, far) {
   if (radius === null || radius === undefined) return;
   const dn = target.n - own.n, de = target.e - own.e, d = Math.hypot(dn, de);
   const half = d > radius ? Math.asin(radius / d) : Math.PI / 2, sight = Math.atan2(de, dn);
-  const apex = px(own.n + target.vn * AHEAD_S, own.e + target.ve * AHEAD_S), edge = [-1, 1].map(s => {
+  const apex = px(own.n + target.vn * AHEAD_S, own.e + target.ve * AHEAD_S), edge = [-1,
+    1].map(s => {
     const a = sight + s * half; return [apex[0] + far * Math.sin(a), apex[1] - far * Math.cos(a)];
   });
   g.globalAlpha = .12; g.fillStyle = ink.fail; path(g, [edge[0], apex, edge[1]], true); g.fill();
@@ -133,7 +143,8 @@ function cone(g, px, scale, own, target, radius, far) {
   g.beginPath(); g.arc(c[0], c[1], radius * scale, 0, 2 * Math.PI); g.stroke(); g.globalAlpha = 1;
 }
 function bar(g, height, scale, width) {
-  const round = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000].find(m => m * scale > width / 8) || 20000;
+  const round = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000].find(m => m *
+    scale > width / 8) || 20000;
   line(g, [[14, height - 14], [14 + round * scale, height - 14]], ink.text, 2);
   g.fillStyle = ink.text; g.fillText(round + ' m', 14, height - 20);
   line(g, [[width - 18, 34], [width - 18, 12]], ink.text, 2); g.fillText('N', width - 22, 48);
@@ -144,9 +155,11 @@ function sentence(g, width) {
   const words = mark.text.split(' '), lines = [''];
   for (const w of words) {
     const last = lines[lines.length - 1];
-    if (g.measureText(last + ' ' + w).width > width - 60 && last) lines.push(w); else lines[lines.length - 1] = last ? last + ' ' + w : w;
+    if (g.measureText(last + ' ' + w).width > width - 60 && last) lines.push(w);
+    else lines[lines.length - 1] = last ? last + ' ' + w : w;
   }
-  g.fillStyle = ink.paper; g.globalAlpha = .85; g.fillRect(6, 6, width - 44, 16 * lines.length + 8); g.globalAlpha = 1;
+  g.fillStyle = ink.paper; g.globalAlpha = .85;
+  g.fillRect(6, 6, width - 44, 16 * lines.length + 8); g.globalAlpha = 1;
   g.fillStyle = mark.bad ? ink.fail : ink.text;
   lines.forEach((text, i) => g.fillText(text, 12, 22 + 16 * i));
 }
@@ -163,45 +176,59 @@ function drawCharts() {
     g.strokeStyle = ink.grid; g.lineWidth = 1; g.strokeRect(left, top, right - left, high);
     g.fillStyle = ink.text; g.fillText(title, left, top - 6);
     g.fillStyle = ink.muted; g.textAlign = 'right';
-    g.fillText(fixed(limit, 0), left - 5, top + 9); g.fillText(fixed(low, 0), left - 5, top + high); g.textAlign = 'left';
+    g.fillText(fixed(limit, 0), left - 5, top + 9);
+    g.fillText(fixed(low, 0), left - 5, top + high); g.textAlign = 'left';
     if (level !== undefined) line(g, [[left, y(level)], [right, y(level)]], ink.text, 1, [4, 4]);
-    for (const [points, colour, dash] of curves) line(g, points.map(p => [x(p[0]), y(p[1])]), colour, 1.6, dash);
+    for (const [points, colour, dash] of curves) line(g, points.map(p => [x(p[0]), y(p[1])]),
+      colour, 1.6, dash);
     top += high + 28;
   };
-  const ranges = now.pairs.map(p => p.range), most = Math.max(now.safety_m, ...ranges.flat()) * 1.05;
-  chart(now.distance === 'hull' ? 'distance between hulls, m' : 'distance between reference points, m',
+  const ranges = now.pairs.map(p => p.range), most = Math.max(now.safety_m, ...ranges.flat()) *
+    1.05;
+  chart(now.distance === 'hull' ? 'distance between hulls, m' :
+    'distance between reference points, m',
     ranges.map(r => [time(r), ink.target]), 0, most, now.safety_m);
-  const unwrap = (list, first) => { let last = first ?? list[0]; return list.map(v => last += ((v - last + 540) % 360 + 360) % 360 - 180); };
+  const unwrap = (list, first) => { let last = first ?? list[0];
+  return list.map(v => last += ((v - last + 540) % 360 + 360) % 360 - 180); };
   let course = unwrap(own.cog), order = unwrap(now.order_course, course[0]);
   // a ship that spins around would leave a chart of some thousand degrees
-  if (Math.max(...course) - Math.min(...course) > 720) { course = own.cog.map(deg360); order = now.order_course.map(deg360); }
+  if (Math.max(...course) - Math.min(...course) > 720) { course = own.cog.map(deg360);
+  order = now.order_course.map(deg360); }
   const both = [...course, ...order], low = Math.min(...both) - 5, limit = Math.max(...both) + 5;
-  chart('own course, deg (dashed: ordered)', [[time(order), ink.muted, [3, 3]], [time(course), ink.own]], low, limit);
+  chart('own course, deg (dashed: ordered)', [[time(order), ink.muted, [3, 3]], [time(course),
+    ink.own]], low, limit);
   const speeds = now.ships.map((s, i) => [time(s.sog), i ? ink.target : ink.own]);
-  chart('speed, m/s (dashed: ordered)', [[time(now.order_speed), ink.muted, [3, 3]], ...speeds.reverse()], 0,
+  chart('speed, m/s (dashed: ordered)', [[time(now.order_speed), ink.muted, [3, 3]],
+    ...speeds.reverse()], 0,
     Math.max(...now.ships.flatMap(s => s.sog), ...now.order_speed) * 1.1 + .1);
   top -= 8;
-  const band = (from, to, colour) => { if (to > from) { g.fillStyle = colour; g.fillRect(x(from), top, x(to) - x(from), lane - 4); } };
+  const band = (from, to, colour) => { if (to > from) { g.fillStyle = colour;
+  g.fillRect(x(from), top, x(to) - x(from), lane - 4); } };
   const label = text => { g.fillStyle = ink.text; g.fillText(text, left + 4, top + 9); };
   now.pairs.forEach((p, i) => {
     const end = p.released_s ?? now.end_s, starts = [p.risk_s, ...p.stages_s];
     band(0, now.end_s, ink.grid);
-    starts.forEach((from, k) => { if (from !== null) { g.globalAlpha = .2 + .2 * k; band(from, end, ink.warn); g.globalAlpha = 1; } });
-    label((now.pairs.length > 1 ? 'target ' + (i + 1) + ': ' : '') + 'risk and stages, ' + p.class + (p.role ? ', ' + p.role : ''));
+    starts.forEach((from, k) => { if (from !== null) { g.globalAlpha = .2 + .2 * k;
+    band(from, end, ink.warn); g.globalAlpha = 1; } });
+    label((now.pairs.length > 1 ? 'target ' + (i + 1) + ': ' : '') + 'risk and stages, ' +
+      p.class + (p.role ? ', ' + p.role : ''));
     top += lane;
   });
   for (const l of now.lanes) {
     band(0, now.end_s, ink.grid);
-    g.globalAlpha = .55; band(l.t ?? 0, now.end_s, ink[{ fail: 'fail', warn: 'warn', pass: 'good' }[l.status] || 'muted']); g.globalAlpha = 1;
+    g.globalAlpha = .55; band(l.t ?? 0, now.end_s, ink[{ fail: 'fail', warn: 'warn',
+      pass: 'good' }[l.status] || 'muted']); g.globalAlpha = 1;
     label(l.title + ': ' + l.status); top += lane;
   }
-  for (const m of now.marks) line(g, [[x(m.t), 22], [x(m.t), top]], m.bad ? ink.fail : ink.nominal, 1, [2, 3]);
+  for (const m of now.marks) line(g, [[x(m.t), 22], [x(m.t), top]], m.bad ? ink.fail :
+    ink.nominal, 1, [2, 3]);
   line(g, [[x(t), 16], [x(t), top]], ink.text, 1.5);
   g.fillStyle = ink.text; g.fillText(fixed(t, 1) + ' s', Math.min(x(t) + 4, right - 46), 12);
 }
 
 function readout() {
-  const k = Math.floor(sample() + 1e-9), own = now.ships[0], rows = [['time', fixed(t, 1), 's', 'p-now']];
+  const k = Math.floor(sample() + 1e-9), own = now.ships[0], rows = [['time', fixed(t, 1), 's',
+    'p-now']];
   now.pairs.forEach((p, i) => {
     const n = now.pairs.length > 1 ? ' ' + (i + 1) : '', last = Math.min(k, p.range.length - 1);
     rows.push(['distance' + n, fixed(p.range[last], 1), 'm', 'p-range' + i]);
@@ -209,10 +236,12 @@ function readout() {
     rows.push(['time to CPA' + n, fixed(p.tcpa[last], 0), 's', 'p-tcpa' + i]);
     rows.push(['state' + n, state(p), '', 'p-state' + i]);
   });
-  rows.push(['own course', fixed(deg360(own.cog[k]), 1), 'deg', 'p-course'], ['own speed', fixed(own.sog[k], 2), 'm/s', 'p-speed-now']);
+  rows.push(['own course', fixed(deg360(own.cog[k]), 1), 'deg', 'p-course'], ['own speed',
+    fixed(own.sog[k], 2), 'm/s', 'p-speed-now']);
   $('p-readout').innerHTML = '';
   for (const [name, value, unit, id] of rows) {
-    const cell = document.createElement('div'), dt = document.createElement('dt'), dd = document.createElement('dd');
+    const cell = document.createElement('div'), dt = document.createElement('dt'),
+      dd = document.createElement('dd');
     dt.textContent = unit ? name + ', ' + unit : name; dd.textContent = value; dd.id = id;
     cell.append(dt, dd); $('p-readout').append(cell);
   }
@@ -236,7 +265,8 @@ function select(c, from) {
   $('p-marks').innerHTML = '';
   for (const m of c.marks) {
     const li = document.createElement('li'), a = document.createElement('a');
-    a.textContent = fixed(m.t, 1) + ' s: ' + m.text; a.href = '#id=' + encodeURIComponent(c.id) + '&t=' + m.t.toFixed(1);
+    a.textContent = fixed(m.t, 1) + ' s: ' + m.text;
+    a.href = '#id=' + encodeURIComponent(c.id) + '&t=' + m.t.toFixed(1);
     if (m.bad) li.className = 'bad';
     li.append(a); $('p-marks').append(li);
   }
