@@ -57,7 +57,7 @@ fn pack() -> Files {
         declared_to_differ: VOLATILE.map(str::to_owned).to_vec(),
         files_sha256: stable.map(|(path, bytes)| (path.clone(), sha256_hex(bytes))).collect(),
     };
-    let text = serde_json::to_string_pretty(&manifest).unwrap() + "\n";
+    let text = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys") + "\n";
     files.insert(MANIFEST.to_owned(), text.into_bytes());
     let hashes: BTreeMap<String, String> =
         files.iter().map(|(path, bytes)| (path.clone(), sha256_hex(bytes))).collect();

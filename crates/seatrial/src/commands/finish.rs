@@ -39,7 +39,7 @@ pub(super) fn finish(
     (threads, quiet): (usize, bool),
 ) -> Result<PlannerResult, Error> {
     let dir = folder.path();
-    let sink = table::ParquetSink::create(&dir.join("runs.parquet"));
+    let sink = table::ParquetSink::create(dir.join("runs.parquet"));
     let mut sink = TableSink(sink.map_err(|e| Error::Fault(format!("failed to {e}")))?);
     let finished = campaign::finish(plan, folder, &mut sink)?;
     sink.0.finish().map_err(|e| Error::Fault(format!("failed to {e}")))?;
