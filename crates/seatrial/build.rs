@@ -11,6 +11,8 @@ use std::{env, fs};
 const ENGINE: [&str; 7] = ["geom", "record", "planner-api", "encounter", "sim", "rules", "stats"];
 /// Crates whose sources decide what a planner of the registry orders.
 const PLANNERS: [&str; 1] = ["planners"];
+/// Crates whose sources decide a byte of a report or an evidence pack.
+const RENDERER: [&str; 6] = ["summary", "table", "report", "evidence", "campaign", "seatrial"];
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -24,6 +26,16 @@ fn main() {
     set("RUSTC", &rustc);
     set("ENGINE", &hash_sources(&root, &ENGINE, &[&lock, rustc.as_bytes()]));
     set("PLANNERS", &hash_sources(&root, &PLANNERS, &[]));
+    let templates: Vec<Vec<u8>> = ["report", "evidence"]
+        .iter()
+        .flat_map(|name| {
+            let folder = root.join("crates").join(name).join("templates");
+            ["html", "css", "js"].into_iter().flat_map(move |ending| files(&folder, ending))
+        })
+        .map(|path| fs::read(path).unwrap_or_default())
+        .collect();
+    let templates: Vec<&[u8]> = templates.iter().map(Vec::as_slice).chain([&lock[..]]).collect();
+    set("RENDERER", &hash_sources(&root, &RENDERER, &templates));
     set("LOCK_SHA256", &hex(&sha2::Sha256::digest(&lock)));
     embed_campaigns(&root);
     for path in ["crates", "campaigns", "Cargo.lock", ".git/HEAD", ".git/index"] {

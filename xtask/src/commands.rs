@@ -36,6 +36,7 @@ const OWN: &[(&str, &str)] = &[
     ("tidy", "check dependency edges, file sizes, manifests and forbidden words"),
     ("ci", "run the stages of .ci/run (all, or those named)"),
     ("e2e", "run the report in a real browser and the binary end to end (tests/e2e/run)"),
+    ("example-pack", "make reports/example-pack anew (tests/e2e/example-pack)"),
     ("e2e-slurm", "run a campaign on a real Slurm of this machine (tests/slurm/run; minutes)"),
     ("mutants", "mutation tests of the judges and the statistics (hours; needs cargo-mutants)"),
 ];
@@ -74,6 +75,7 @@ pub(crate) fn dispatch(name: &str, rest: Vec<OsString>) -> Result<ExitCode> {
         "tidy" => tidy::run(&rest),
         "ci" => script(".ci/run", &rest),
         "e2e" => script("tests/e2e/run", &rest),
+        "example-pack" => script("tests/e2e/example-pack", &rest),
         "e2e-slurm" => script("tests/slurm/run", &rest),
         "mutants" => mutants(&rest),
         name if PRODUCT.iter().any(|(known, _)| *known == name) => product(name, &rest),

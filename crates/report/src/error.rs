@@ -24,4 +24,7 @@ pub enum ReportError {
         /// What does not fit.
         source: minijinja::Error,
     },
+    /// The data of the player cannot be written as JSON.
+    #[error("encode the replay player's data: {0}")]
+    Player(serde_json::Error),
 }

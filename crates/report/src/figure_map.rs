@@ -61,7 +61,7 @@ pub(crate) fn figure(tally: &Tally) -> Figure {
 const STEPS: [(f64, &str); 5] =
     [(0.0, "none"), (0.01, "to 1 %"), (0.05, "to 5 %"), (0.2, "to 20 %"), (1.0, "over 20 %")];
 
-fn step(share: f64) -> u8 {
+pub(crate) fn step(share: f64) -> u8 {
     STEPS.iter().position(|(end, _)| share <= *end).unwrap_or(STEPS.len() - 1) as u8
 }
 
@@ -99,7 +99,7 @@ fn draw(cells: &BTreeMap<CellKey, Cell>) -> String {
     })
 }
 
-fn draw_key(sheet: &mut Sheet) {
+pub(crate) fn draw_key(sheet: &mut Sheet) {
     let mut x = LEFT + 220.0;
     sheet.text("share failed", x - 8.0, 18.0, Type::new(11.0, Ink::Text, At::Right));
     for (i, (_, label)) in STEPS.iter().enumerate() {

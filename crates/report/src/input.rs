@@ -1,7 +1,7 @@
 //! What a report is made from. Nothing in it is a literal of the report's own.
 
 use record::{DistanceKind, Encounter, Judgement, RunRow, Trace};
-use summary::{Summary, Tallies};
+use summary::{Finding, Summary, Tallies};
 
 /// What a reader must know of a campaign, as text; every value from the resolved campaign.
 #[derive(Clone, Debug)]
@@ -40,6 +40,20 @@ pub struct Case {
     pub judgement: Judgement,
     /// Its row.
     pub row: RunRow,
+    /// Radius of the disc around each target that the planner keeps its relative velocity out of,
+    /// metres between reference points; absent where the planner has no velocity obstacle.
+    pub obstacle_radius_m: Option<Vec<f64>>,
+}
+
+/// A finding and what a mariner would say of its worst encounter.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// What, how often, and the worst.
+    pub finding: Finding,
+    /// One sentence.
+    pub sentence: String,
+    /// The moment that decided it, seconds, where there is one.
+    pub t_s: Option<f64>,
 }
 
 /// A report of one planner.
@@ -51,6 +65,8 @@ pub struct ReportInput<'a> {
     pub summary: &'a Summary,
     /// The counts that it was made from.
     pub tallies: &'a Tallies,
+    /// What went wrong, clustered, the gravest first.
+    pub findings: &'a [Found],
     /// The worst encounters, worst first.
     pub cases: &'a [Case],
 }

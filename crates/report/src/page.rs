@@ -2,13 +2,15 @@
 
 use crate::canvas::Ink;
 use crate::figure::{DataTable, Figure};
+use crate::findings::{self, FindingLine};
 use crate::group::{Group, all, groups};
 use crate::input::{Case, ReportInput};
 use crate::number::{NONE, count, fixed, per_cent, per_cent_or_none};
 use crate::page_tables::{avoiding, classes, outcomes};
 use crate::wording::{Verdict, encounters, not_claimed, verdict};
-use crate::{ReportError, case_figure, figure_cpa, figure_map, figure_rates, figure_times, font};
-use record::{Check, Status};
+use crate::{ReportError, case_figure, figure_cpa, figure_map, figure_polar, figure_rates};
+use crate::{figure_times, font, player};
+use record::{Check, DistanceKind, Status};
 use serde::Serialize;
 use summary::{BoundedRate, StratumSummary, Tally};
 
@@ -26,6 +28,7 @@ pub(crate) fn figures(input: &ReportInput) -> Vec<Figure> {
         figure_rates::figure(&rate_lines(input), &runs),
         figure_cpa::figure(&groups, card.safety_radius_m, card.distance),
         figure_times::figure(&groups),
+        figure_polar::figure(&all(input).tally),
         figure_map::figure(&all(input).tally),
     ];
     figures.extend(input.cases.iter().map(case_figure::figure));
@@ -39,6 +42,10 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
     let whole = all(input);
     let view = View {
         css: css(),
+        player: player::data(input.cases)?,
+        hull: card.distance == DistanceKind::Hull,
+        cone: input.cases.iter().any(|case| case.obstacle_radius_m.is_some()),
+        script: include_str!("../templates/player.js"),
         head: Head {
             title: &card.title,
             planner: &card.planner,
@@ -54,6 +61,7 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
         not_claimed: not_claimed(input, &whole),
         strata: strata(input, &whole),
         figures: general.iter().map(inline).collect(),
+        findings: findings::lines(input, &whole.tally),
         rules: Check::ALL.into_iter().map(|check| rule_line(&whole.tally, check)).collect(),
         classes: classes(&whole.tally),
         avoiding: avoiding(&whole.summary),
@@ -79,7 +87,8 @@ pub(crate) fn fill(
     environment.get_template(name).and_then(|page| page.render(view)).map_err(fail)
 }
 
-pub(crate) fn css() -> String {
+/// The style sheet of every page, fonts inside.
+pub fn css() -> String {
     font::face_css() + include_str!("../templates/report.css")
 }
 
@@ -100,12 +109,19 @@ pub(crate) fn inline(figure: &Figure) -> Figure {
 #[derive(Serialize)]
 struct View<'a> {
     css: String,
+    player: String,
+    /// Distances are from hull to hull.
+    hull: bool,
+    /// Some shown encounter has a velocity obstacle.
+    cone: bool,
+    script: &'static str,
     head: Head<'a>,
     verdict: Verdict,
     cards: Vec<Headline>,
     not_claimed: Vec<String>,
     strata: Vec<StratumLine>,
     figures: Vec<Figure>,
+    findings: Vec<FindingLine>,
     rules: Vec<RuleLine>,
     classes: DataTable,
     avoiding: DataTable,
@@ -169,6 +185,10 @@ struct RuleLine {
     not_evaluated: String,
     rate: String,
     bounds: String,
+    /// The check ran and never applied: nothing is known of it.
+    untested: bool,
+    /// The check did not run at all.
+    silent: bool,
 }
 
 #[derive(Serialize)]
@@ -288,6 +308,8 @@ fn rule_line(tally: &Tally, check: Check) -> RuleLine {
         not_evaluated: count(of(Status::NotEvaluated)),
         rate: per_cent_or_none(rate.rate),
         bounds: bounds(&rate),
+        untested: tally.n > 0 && rate.n == 0 && of(Status::NotEvaluated) < tally.n,
+        silent: tally.n > 0 && of(Status::NotEvaluated) == tally.n,
     }
 }
 

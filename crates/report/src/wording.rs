@@ -26,6 +26,7 @@ pub(crate) fn verdict(whole: &StratumSummary) -> Verdict {
         return Verdict { tone: "none", sentences: vec!["No encounter was run.".to_owned()] };
     }
     let mut sentences = Vec::new();
+    let failed = failed_checks(whole);
     let tone = if collisions > 0 {
         sentences.push(format!("{} of {} ended in a collision.", count(collisions), encounters(n)));
         sentences.push(format!("The safety radius was broken in {}.", encounters(broken)));
@@ -42,8 +43,11 @@ pub(crate) fn verdict(whole: &StratumSummary) -> Verdict {
         "warn"
     } else {
         sentences.push(format!("No collision and no broken safety radius in {}.", encounters(n)));
-        "good"
+        if failed.is_empty() { "good" } else { "warn" }
     };
+    if !failed.is_empty() {
+        sentences.push(format!("Checks of the rules failed: {}.", failed.join("; ")));
+    }
     if whole.unknown > 0 {
         sentences.push(format!(
             "The outcome of {} is unknown: the planner failed, or the run was cut short. They \
@@ -52,6 +56,23 @@ pub(crate) fn verdict(whole: &StratumSummary) -> Verdict {
         ));
     }
     Verdict { tone, sentences }
+}
+
+/// The checks that failed, each with how often and of how many to which it applied.
+fn failed_checks(whole: &StratumSummary) -> Vec<String> {
+    let of = |check: Check, status| {
+        whole.checks.get(&check).and_then(|counts| counts.get(&status)).copied().unwrap_or(0)
+    };
+    let line = |check: Check| {
+        let failed = of(check, Status::Fail);
+        let applied: u64 = [Status::Pass, Status::Warn, Status::Fail, Status::Inconclusive]
+            .map(|status| of(check, status))
+            .iter()
+            .sum();
+        let title = check.title();
+        (failed > 0).then(|| format!("{title} in {} of {}", count(failed), count(applied)))
+    };
+    Check::ALL.into_iter().filter_map(line).collect()
 }
 
 /// What follows from the numbers, then what the campaign says of itself.

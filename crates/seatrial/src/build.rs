@@ -14,3 +14,8 @@ pub(crate) fn build() -> Build {
         rustc: env!("SEATRIAL_RUSTC").to_owned(),
     }
 }
+
+/// Hash of the sources that render reports and packs.
+pub(crate) const RENDERER: &str = env!("SEATRIAL_RENDERER");
+/// The libraries that this binary was built from.
+pub(crate) const CARGO_LOCK: &str = include_str!("../../../Cargo.lock");

@@ -67,6 +67,36 @@ pub(crate) enum Command {
         #[command(flatten)]
         common: CompareArgs,
     },
+    /// Write an evidence pack of a finished result
+    #[command(after_help = EXIT_CODES)]
+    Evidence {
+        /// Folder of a result
+        dir: PathBuf,
+        /// Folder of the pack; it must not be there
+        #[arg(long, value_name = "PACK")]
+        out: PathBuf,
+        /// Secret key of `minisign`, which must be installed
+        #[arg(long, value_name = "FILE")]
+        key: Option<PathBuf>,
+        /// Print no PDF, even if there is a browser
+        #[arg(long)]
+        no_pdf: bool,
+    },
+    /// Check an evidence pack: every byte, what follows from its rows, and encounters run again
+    #[command(after_help = EXIT_CODES)]
+    Verify {
+        /// Folder of a pack
+        pack: PathBuf,
+        /// The line of a minisign public key
+        #[arg(long, value_name = "KEY")]
+        key: Option<String>,
+        /// Encounters to run again besides the failures
+        #[arg(long, value_name = "N", default_value_t = 1000)]
+        sample: u64,
+        /// Seed of the sample [default: fresh, and printed]
+        #[arg(long, value_name = "N")]
+        sample_seed: Option<u64>,
+    },
     /// The engine process of a campaign; the supervisor starts it
     #[command(hide = true)]
     Engine {

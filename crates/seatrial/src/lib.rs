@@ -17,7 +17,9 @@ mod exit;
 mod files;
 mod headline;
 mod manifest;
+mod obstacles;
 mod progress;
+mod rendering;
 mod timing;
 
 use clap::Parser;

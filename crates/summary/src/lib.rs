@@ -8,6 +8,7 @@
 
 mod bearing_map;
 mod build;
+mod findings;
 mod fixed_point;
 mod risk;
 mod summary;
@@ -16,6 +17,7 @@ mod tally;
 mod times;
 
 pub use bearing_map::{BEARING_SECTORS, BearingMap, Cell, CellKey, RATIO_BANDS};
+pub use findings::{Event, Finding, Findings};
 pub use fixed_point::FixedSum;
 pub use risk::PairedCounts;
 pub use summary::{

@@ -6,11 +6,13 @@
 #![forbid(unsafe_code)]
 
 mod columns;
+mod csv;
 mod error;
 mod read;
 mod write;
 
 pub use columns::column_names;
+pub use csv::{csv_head, csv_line};
 pub use error::TableError;
 pub use read::{Rows, find, read_rows};
 pub use write::{ParquetSink, ROW_GROUP_ROWS};

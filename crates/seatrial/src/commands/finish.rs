@@ -1,18 +1,15 @@
 //! From parts to files: the table, the summary, the report, the manifest.
 
+use crate::rendering::{Rendering, card};
 use crate::timing::Stopwatch;
 use crate::{files, headline, manifest};
-use campaign::worker::{self, Run};
-use campaign::{Error, Finished, Folder, Plan, RowSink};
+use campaign::{Error, Folder, Plan, RowSink};
 use planner_api::Registry;
 use record::RunRow;
-use report::{Card, Case, Compared, ReportInput};
+use report::{Card, Compared};
 use std::fs;
 use std::path::Path;
-use summary::{Summary, SummaryHead, Tallies};
-
-/// Encounters that a report shows with their tracks.
-const CASES_SHOWN: usize = 12;
+use summary::{Summary, Tallies};
 
 /// What a comparison needs of one planner.
 #[derive(Debug)]
@@ -42,96 +39,33 @@ pub(super) fn finish(
     (threads, quiet): (usize, bool),
 ) -> Result<PlannerResult, Error> {
     let dir = folder.path();
-    let sink = table::ParquetSink::create(&dir.join("runs.parquet"));
+    let sink = table::ParquetSink::create(dir.join("runs.parquet"));
     let mut sink = TableSink(sink.map_err(|e| Error::Fault(format!("failed to {e}")))?);
     let finished = campaign::finish(plan, folder, &mut sink)?;
     sink.0.finish().map_err(|e| Error::Fault(format!("failed to {e}")))?;
     stopwatch.lap("table");
-    let summary = summarise(plan, &finished);
-    files::write(&dir.join("summary.json"), summary.to_json().as_bytes())?;
-    let cases = cases(plan, registry, &finished)?;
-    let card = card(plan)?;
-    let tallies = &finished.tallies;
-    report::write(dir, &ReportInput { card: &card, summary: &summary, tallies, cases: &cases })
-        .map_err(|e| Error::Fault(format!("failed to {e}")))?;
+    let rendering = Rendering::new(
+        plan,
+        registry,
+        finished.tallies.clone(),
+        finished.root_digest.clone(),
+        (&finished.cases, &finished.findings),
+    )?;
+    files::write(&dir.join("summary.json"), rendering.summary.to_json().as_bytes())?;
+    report::write(dir, &rendering.input()).map_err(|e| Error::Fault(format!("failed to {e}")))?;
     stopwatch.lap("report");
     manifest::write(dir, plan, &finished)?;
     let timing = stopwatch.json(threads, finished.encounters);
     files::write(&dir.join("timing.json"), timing.as_bytes())?;
     folder.end()?;
     if !quiet {
-        print!("{}", headline::table(&summary, headline::terminal_columns()));
+        print!("{}", headline::table(&rendering.summary, headline::terminal_columns()));
         println!("root digest {}", finished.root_digest);
         println!("report: {}", dir.join("report.html").display());
     }
     let link = link(dir);
-    Ok(PlannerResult { card, summary, tallies: finished.tallies, link })
-}
-
-fn summarise(plan: &Plan, finished: &Finished) -> Summary {
-    let head = SummaryHead {
-        campaign: plan.campaign.clone(),
-        planner: plan.planner.name.clone(),
-        seed: plan.seed,
-        root_digest: finished.root_digest.clone(),
-    };
-    Summary::new(head, &finished.tallies, plan.strata.iter().map(String::as_str))
-}
-
-/// The encounters that the report shows, run again: their traces were not kept.
-fn cases(plan: &Plan, registry: &Registry, finished: &Finished) -> Result<Vec<Case>, Error> {
-    let ids = finished.cases.ids(CASES_SHOWN);
-    ids.iter().map(|id| worker::run_alone(plan, registry, id).map(case)).collect()
-}
-
-/// A run as the report wants it.
-pub(super) fn case(run: Run) -> Case {
-    Case { encounter: run.encounter, trace: run.trace, judgement: run.judgement, row: run.row }
-}
-
-/// What a report says of the plan.
-fn card(plan: &Plan) -> Result<Card, Error> {
-    let mut resolved = Vec::new();
-    let json = plan.json()?;
-    for key in ["seed", "encounters_per_stratum", "planner", "run", "source", "build"] {
-        flatten(key, &json[key], &mut resolved);
-    }
-    Ok(Card {
-        title: plan.title.clone(),
-        campaign: plan.campaign.clone(),
-        planner: plan.planner.name.clone(),
-        rules: format!("{} ({})", plan.rules.name, &plan.rules.hash[..12]),
-        tool: format!("seatrial {}", plan.build.tool_version),
-        distance: plan.run.distance,
-        safety_radius_m: plan.run.safety_radius_m,
-        // not the folder itself: two runs into two folders are byte for byte the same
-        replay_command: "seatrial replay DIR {id}".to_owned(),
-        resolved,
-        not_claimed: Vec::new(),
-    })
-}
-
-/// Longest list of a plan that a report shows item by item.
-const ITEMS_SHOWN: usize = 12;
-
-/// `key.path = value` lines of a plan.
-fn flatten(key: &str, value: &serde_json::Value, lines: &mut Vec<(String, String)>) {
-    use serde_json::Value;
-    match value {
-        Value::Object(map) => {
-            map.iter().for_each(|(name, value)| flatten(&format!("{key}.{name}"), value, lines));
-        }
-        Value::Array(items) if items.len() > ITEMS_SHOWN => {
-            lines.push((key.to_owned(), format!("{} entries", items.len())));
-        }
-        Value::Array(items) if items.iter().any(|item| item.is_object() || item.is_array()) => {
-            for (i, item) in items.iter().enumerate() {
-                flatten(&format!("{key}[{i}]"), item, lines);
-            }
-        }
-        Value::String(text) => lines.push((key.to_owned(), text.clone())),
-        other => lines.push((key.to_owned(), other.to_string())),
-    }
+    let Rendering { card, summary, tallies, .. } = rendering;
+    Ok(PlannerResult { card, summary, tallies, link })
 }
 
 /// The last part of a folder's path: reports must not depend on where they were written.

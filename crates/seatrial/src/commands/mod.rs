@@ -3,6 +3,7 @@
 mod campaign;
 mod compare;
 mod engine;
+mod evidence;
 mod finish;
 mod intervals;
 mod planners;
@@ -10,6 +11,7 @@ mod replay;
 mod speed;
 
 mod vectors;
+mod verify;
 
 use crate::cli::Command;
 use crate::exit::Ended;
@@ -25,6 +27,13 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),
+        Command::Evidence { dir, out, key, no_pdf } => {
+            evidence::run(&dir, &out, key.as_deref(), !no_pdf, registry)
+        }
+        Command::Verify { pack, key, sample, sample_seed } => {
+            let key = key.as_deref();
+            verify::run(&verify::Wanted { pack: &pack, key, sample, seed: sample_seed }, registry)
+        }
         Command::Engine { dir, threads, suspect } => {
             engine::run(&dir, threads, suspect.as_deref(), registry)
         }

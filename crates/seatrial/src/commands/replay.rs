@@ -35,7 +35,7 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
     let pictures = folder.path().join("replay");
     fs::create_dir_all(&pictures).map_err(Error::io("make", &pictures))?;
     let picture = pictures.join(format!("{}.svg", id.file_stem()));
-    let case = super::finish::case(run);
+    let case = crate::rendering::case(&plan, run);
     report::draw_case(&picture, &case).map_err(|e| Error::Fault(format!("failed to {e}")))?;
     println!("  picture: {}", picture.display());
     if case.row.digest == stored.digest {

@@ -1,0 +1,167 @@
+//! `evidence`: a pack of a finished result, for an assessor.
+
+use crate::exit::Ended;
+use crate::rendering::Rendering;
+use crate::{build, files};
+use campaign::{Error, Folder, Plan};
+use evidence::{EvidenceError, Files, Gathered, PackInput, RESULT, STATEMENT};
+use planner_api::Registry;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Files of a result that are taken as they are; everything else is made from the rows.
+const TAKEN: [&str; 3] = ["runs.parquet", "manifest.json", "timing.json"];
+
+pub(super) fn run(
+    dir: &Path,
+    out: &Path,
+    key: Option<&Path>,
+    pdf: bool,
+    registry: Registry,
+) -> Result<Ended, Error> {
+    if out.exists() {
+        return Err(Error::input(format!(
+            "{} is there already; a pack is written to a folder of its own",
+            out.display()
+        )));
+    }
+    let (folder, plan) = Folder::existing(dir)?;
+    let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
+    unchanged(folder.path())?;
+    let mut given = Files::new();
+    for name in TAKEN {
+        let path = folder.path().join(name);
+        let bytes = fs::read(&path).map_err(Error::io("read", &path))?;
+        given.insert(format!("{RESULT}/{name}"), bytes);
+    }
+    let pack = make(&plan, &registry, &folder.path().join("runs.parquet"), &given)?;
+    same_report(folder.path(), &pack)?;
+    for (path, bytes) in &pack {
+        let path = out.join(path);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(Error::io("make", parent))?;
+        }
+        files::write(&path, bytes)?;
+    }
+    if pdf {
+        print_pdf(out)?;
+    }
+    state(out)?;
+    if let Some(key) = key {
+        evidence::sign(&out.join(STATEMENT), key).map_err(failed)?;
+    }
+    println!("pack: {} ({} files)", out.display(), files::below(out)?.len());
+    Ok(Ended::Done)
+}
+
+/// Every file of a pack but what is volatile, sealed by its manifest.
+pub(super) fn make(
+    plan: &Plan,
+    registry: &Registry,
+    table: &Path,
+    given: &Files,
+) -> Result<Files, Error> {
+    let gathered = Gathered::read(table, plan).map_err(failed)?;
+    let rendering = Rendering::new(
+        plan,
+        registry,
+        gathered.tallies.clone(),
+        gathered.root_digest.clone(),
+        (&gathered.cases, &gathered.findings),
+    )?;
+    // what changes from run to run must not get into what does not
+    let stable: Files = given
+        .iter()
+        .filter(|(path, _)| !volatile(path))
+        .map(|(p, b)| (p.clone(), b.clone()))
+        .collect();
+    let input = PackInput {
+        plan,
+        gathered: &gathered,
+        report: rendering.input(),
+        given: &stable,
+        lock: build::CARGO_LOCK,
+    };
+    let mut pack = evidence::derive(&input).map_err(failed)?;
+    pack.extend(given.clone());
+    let sums = (gathered.root_digest.as_str(), gathered.rows);
+    evidence::seal(&mut pack, plan, build::RENDERER, sums).map_err(failed)?;
+    Ok(pack)
+}
+
+pub(super) fn failed(error: EvidenceError) -> Error {
+    Error::input(format!("failed to {error}"))
+}
+
+fn volatile(path: &str) -> bool {
+    evidence::VOLATILE.contains(&path)
+}
+
+/// The files of a result against the hashes in its manifest.
+fn unchanged(folder: &Path) -> Result<(), Error> {
+    let path = folder.join("manifest.json");
+    let text = fs::read(&path).map_err(Error::io("read", &path))?;
+    let damaged = |what: String| Error::input(format!("{}: {what}", folder.display()));
+    let manifest: serde_json::Value = serde_json::from_slice(&text)
+        .map_err(|e| damaged(format!("manifest.json is damaged: {e}")))?;
+    let hashes: BTreeMap<String, String> = serde_json::from_value(manifest["files_sha256"].clone())
+        .map_err(|e| damaged(format!("manifest.json has no hashes: {e}")))?;
+    for (name, hash) in hashes {
+        let path = folder.join(&name);
+        let bytes = fs::read(&path).map_err(Error::io("read", &path))?;
+        if evidence::sha256_hex(&bytes) != hash {
+            return Err(damaged(format!("{name} was changed after the campaign; run it again")));
+        }
+    }
+    Ok(())
+}
+
+/// A result of another build may have been rendered otherwise: its own report is not in the pack.
+fn same_report(folder: &Path, pack: &Files) -> Result<(), Error> {
+    let path = folder.join("report.html");
+    let there = fs::read(&path).map_err(Error::io("read", &path))?;
+    if pack.get(&format!("{RESULT}/report.html")) != Some(&there) {
+        println!(
+            "note: this build renders the report otherwise than the one that made it; the pack \
+             has the new one"
+        );
+    }
+    Ok(())
+}
+
+/// `evidence.pdf`, by a browser, where there is one.
+fn print_pdf(out: &Path) -> Result<(), Error> {
+    const BROWSERS: [&str; 3] = ["chromium", "google-chrome", "chromium-browser"];
+    let page = out.join("evidence.html");
+    let page = page.canonicalize().map_err(Error::io("find", &page))?;
+    let pdf = out.join("evidence.pdf");
+    let printed = BROWSERS.iter().any(|browser| {
+        let status = Command::new(browser)
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer"])
+            .arg(format!("--print-to-pdf={}", pdf.display()))
+            .arg(format!("file://{}", page.display()))
+            .stderr(std::process::Stdio::null())
+            .status();
+        status.is_ok_and(|status| status.success()) && pdf.exists()
+    });
+    if !printed {
+        println!(
+            "note: no evidence.pdf: none of {} could print it; evidence.html has the same content",
+            BROWSERS.join(", ")
+        );
+    }
+    Ok(())
+}
+
+/// The statement over everything that is in the folder.
+fn state(out: &Path) -> Result<(), Error> {
+    let pack = evidence::read_all(out).map_err(failed)?;
+    let (_, manifest) = evidence::inspect(&pack);
+    let manifest =
+        manifest.ok_or_else(|| Error::Fault("the manifest just written is damaged".to_owned()))?;
+    let hashes: BTreeMap<String, String> =
+        pack.iter().map(|(path, bytes)| (path.clone(), evidence::sha256_hex(bytes))).collect();
+    files::write(&out.join(STATEMENT), &evidence::statement(&hashes, &manifest))
+}
