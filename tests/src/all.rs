@@ -2,8 +2,10 @@
 #![forbid(unsafe_code)]
 
 mod end_to_end;
+mod judge_again;
 mod killed;
 mod lost_runs;
 mod refusals;
 mod same_bits;
+mod shards;
 mod support;

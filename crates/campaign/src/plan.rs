@@ -52,8 +52,12 @@ impl RulesChoice {
     /// A rule set from its text; refuses one that contradicts itself.
     pub fn new(name: &str, text: String) -> Result<Self, Error> {
         rules::RuleSet::parse(&text).map_err(|e| Error::input(format!("rule set {name}: {e}")))?;
-        let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
-        Ok(Self { name: name.to_owned(), hash, text })
+        Ok(Self { name: name.to_owned(), hash: Self::hash_of(&text), text })
+    }
+
+    /// BLAKE3 of a rule set's text, hexadecimal.
+    pub fn hash_of(text: &str) -> String {
+        blake3::hash(text.as_bytes()).to_hex().to_string()
     }
 
     /// The parsed rule set.

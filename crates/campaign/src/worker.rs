@@ -1,11 +1,12 @@
 //! One worker: draws an encounter, runs it, judges it, makes its row.
 
 use crate::inflight::InFlight;
+use crate::judges::{Disagreement, Judges};
 use crate::plan::EncounterSource;
 use crate::{Error, Plan, row};
 use planner_api::{Planner, PlannerEntry, Registry};
 use record::verdict::Judgement;
-use record::{Digest, Encounter, EncounterId, Outcome, RunRow, Trace};
+use record::{Encounter, EncounterId, Outcome, RunRow, Trace};
 use std::sync::atomic::AtomicU64;
 
 /// Everything that is made once for a campaign and shared by all workers.
@@ -48,6 +49,8 @@ pub struct Run {
     pub trace: Trace,
     /// What the judge says of it.
     pub judgement: Judgement,
+    /// Where the second judge disagrees; absent where it was not asked.
+    pub disagreements: Option<Vec<Disagreement>>,
     /// The row.
     pub row: RunRow,
     /// Draws that were rejected on the way.
@@ -58,7 +61,7 @@ pub struct Run {
 pub struct Worker<'a> {
     shop: &'a Shop<'a>,
     planner: Box<dyn Planner>,
-    judge: rules::Judge,
+    judges: Judges,
     scratch: sim::Scratch,
 }
 
@@ -74,7 +77,7 @@ impl<'a> Worker<'a> {
         Ok(Self {
             shop,
             planner: shop.planner()?,
-            judge: rules::Judge::new(shop.rules.clone()),
+            judges: Judges::new(shop.rules.clone(), shop.plan.run.second_judge)?,
             scratch: sim::Scratch::default(),
         })
     }
@@ -110,15 +113,10 @@ impl<'a> Worker<'a> {
         if trace.outcome.is_planner_failure() {
             self.planner = self.shop.planner()?;
         }
-        let judgement = self.judge.judge(&trace);
-        let row = match trace.outcome {
-            // what a panic leaves behind depends on how far it came: id and outcome alone count
-            Outcome::PlannerPanicked | Outcome::PlannerCrashed | Outcome::PlannerHung => {
-                row::of_lost_run(&encounter, trace.outcome)
-            }
-            _ => row::of_run(&encounter, &trace, Digest::of_trace(&trace), &judgement),
-        };
-        Ok(Run { encounter, trace, judgement, row, rejected })
+        let judged = self.judges.judge(&trace);
+        let row = judged.row(&encounter, &trace);
+        let (judgement, disagreements) = (judged.judgement, judged.disagreements);
+        Ok(Run { encounter, trace, judgement, disagreements, row, rejected })
     }
 }
 

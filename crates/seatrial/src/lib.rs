@@ -18,6 +18,7 @@ mod files;
 mod headline;
 mod manifest;
 mod progress;
+mod sweep;
 mod timing;
 
 use clap::Parser;

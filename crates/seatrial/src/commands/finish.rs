@@ -76,6 +76,7 @@ fn summarise(plan: &Plan, finished: &Finished) -> Summary {
         root_digest: finished.root_digest.clone(),
     };
     Summary::new(head, &finished.tallies, plan.strata.iter().map(String::as_str))
+        .with_disagreements(finished.disagreements.clone())
 }
 
 /// The encounters that the report shows, run again: their traces were not kept.

@@ -5,10 +5,15 @@ mod compare;
 mod engine;
 mod finish;
 mod intervals;
+mod judge;
 mod planners;
 mod replay;
+mod shards;
+mod slurm;
 
 mod vectors;
+
+pub(crate) use judge::JudgedAgain;
 
 use crate::cli::Command;
 use crate::exit::Ended;
@@ -23,6 +28,10 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),
+        Command::Judge(args) => judge::run(&args, registry),
+        Command::Missing { dir, shards, of } => shards::missing(&dir, &shards, of),
+        Command::Merge { dir, shards, quiet } => shards::merge(&dir, &shards, registry, quiet),
+        Command::Slurm(args) => slurm::run(&args),
         Command::Engine { dir, threads, suspect } => {
             engine::run(&dir, threads, suspect.as_deref(), registry)
         }
