@@ -137,10 +137,10 @@ pub fn released(
 ) -> Option<usize> {
     let hold = samples_of(params.release_hold_s, sample_s);
     let mut streak = 0;
-    for k in from..pair.samples() {
+    for (k, distance_m) in distance_m.iter().enumerate().skip(from) {
         let clear = pair.tcpa_s[k] < 0.0
             && pair.range_rate_mps[k] > 0.0
-            && distance_m[k] > params.preferred_m
+            && *distance_m > params.preferred_m
             && (pair.range_m[k] > params.release_range_factor * params.stage_range_m[0]
                 || past(pair, class, params, k));
         streak = if clear { streak + 1 } else { 0 };
