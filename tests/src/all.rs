@@ -3,8 +3,10 @@
 
 mod end_to_end;
 mod golden;
+mod judge_again;
 mod killed;
 mod lost_runs;
 mod refusals;
 mod same_bits;
+mod shards;
 mod support;

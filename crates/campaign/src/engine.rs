@@ -121,7 +121,7 @@ thread_local! {
     static BEAT: RefCell<Option<Arc<AtomicU64>>> = const { RefCell::new(None) };
 }
 
-fn watch_for_panics(beat: &Arc<AtomicU64>) {
+pub(crate) fn watch_for_panics(beat: &Arc<AtomicU64>) {
     BEAT.with_borrow_mut(|mine| *mine = Some(Arc::clone(beat)));
 }
 

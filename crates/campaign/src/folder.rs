@@ -3,10 +3,13 @@
 //! Empty: used. Partial: it holds `state/` with the plan and the parts so far, and needs
 //! `--resume`. Finished: it holds `manifest.json`. Anything else is not ours and is left alone.
 
+use crate::part::PartKey;
 use crate::{Error, Plan, part};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Everything a finished folder may hold, and so everything that `--force` may remove.
 const OURS: [&str; 8] = [
@@ -20,11 +23,23 @@ const OURS: [&str; 8] = [
     "replay",
 ];
 
+/// What the names of folders with the verdicts of another rule set begin with.
+pub const JUDGED: &str = "judged-";
+
+/// What the names of folders with the parts of one shard begin with.
+pub const SHARD: &str = "shard-";
+
+fn is_ours(name: &str) -> bool {
+    OURS.contains(&name) || name.starts_with(JUDGED) || name.starts_with(SHARD)
+}
+
 /// An output folder that is ours to write to.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
     plan_hash: String,
+    /// Parts that are not in this folder, where they were merged from several.
+    elsewhere: BTreeMap<PartKey, Arc<Path>>,
 }
 
 /// What opening a folder found.
@@ -43,7 +58,7 @@ impl Folder {
     /// The folder holds another plan (the message names what differs), is partial without
     /// `resume`, or is not ours.
     pub fn open(path: &Path, plan: &Plan, resume: bool, force: bool) -> Result<Opened, Error> {
-        let this = Self { path: path.to_owned(), plan_hash: plan.hash()? };
+        let this = Self::at(path, plan.hash()?);
         let shown = path.display();
         if path.exists() && !path.is_dir() {
             return Err(Error::input(format!("{shown} is a file; --out wants a folder")));
@@ -53,7 +68,7 @@ impl Folder {
             this.begin(plan)?;
             return Ok(Opened::Ready(this));
         }
-        let stranger = entries.iter().find(|name| !OURS.contains(&name.as_str()));
+        let stranger = entries.iter().find(|name| !is_ours(name));
         let there = this.stored_plan()?;
         let (Some(there), None) = (there, stranger) else {
             let what = stranger.map_or("no manifest", String::as_str);
@@ -89,7 +104,7 @@ impl Folder {
 
     /// A folder that holds a plan already, for the engine and for replay.
     pub fn existing(path: &Path) -> Result<(Self, Plan), Error> {
-        let this = Self { path: path.to_owned(), plan_hash: String::new() };
+        let this = Self::at(path, String::new());
         let json = this.stored_plan()?.ok_or_else(|| {
             Error::input(format!("{} holds no result of this tool", path.display()))
         })?;
@@ -98,6 +113,29 @@ impl Folder {
         })?;
         let plan_hash = plan.hash()?;
         Ok((Self { plan_hash, ..this }, plan))
+    }
+
+    /// The folder into which the parts of several shards are merged.
+    ///
+    /// # Errors
+    /// It holds a finished result, or something else than shards.
+    pub fn merged(
+        path: &Path,
+        plan: &Plan,
+        parts: BTreeMap<PartKey, Arc<Path>>,
+    ) -> Result<Self, Error> {
+        let this = Self { elsewhere: parts, ..Self::at(path, plan.hash()?) };
+        let stranger = this.entries()?.into_iter().find(|name| !is_ours(name));
+        if let Some(what) = stranger {
+            let shown = path.display();
+            return Err(Error::input(format!("{shown} holds {what}, which is no shard's")));
+        }
+        this.begin(plan)?;
+        Ok(this)
+    }
+
+    fn at(path: &Path, plan_hash: String) -> Self {
+        Self { path: path.to_owned(), plan_hash, elsewhere: BTreeMap::new() }
     }
 
     /// The folder.
@@ -113,6 +151,11 @@ impl Folder {
     /// Where parts are.
     pub fn parts(&self) -> PathBuf {
         self.path.join("state").join("parts")
+    }
+
+    /// Where a part is.
+    pub fn parts_of(&self, key: PartKey) -> PathBuf {
+        self.elsewhere.get(&key).map_or_else(|| self.parts(), |folder| folder.to_path_buf())
     }
 
     /// Where encounters that took the process with them are listed.
@@ -177,7 +220,7 @@ impl Folder {
     }
 
     fn clear(&self) -> Result<(), Error> {
-        for name in OURS {
+        for name in self.entries()?.iter().filter(|name| is_ours(name)) {
             let path = self.path.join(name);
             if path.is_dir() {
                 fs::remove_dir_all(&path).map_err(Error::io("remove", &path))?;
@@ -191,7 +234,7 @@ impl Folder {
 
 /// What differs between two plans, as at most four `key: there, here` texts. The commit is no
 /// difference while engine and planners are the same.
-fn differences(there: &Value, here: &Value) -> Vec<String> {
+pub(crate) fn differences(there: &Value, here: &Value) -> Vec<String> {
     const SHOWN: usize = 4;
     let mut found = Vec::new();
     compare("", there, here, &mut found);

@@ -37,6 +37,13 @@ impl PartKey {
         format!("{:04}-{:08}.part", self.stratum, self.piece)
     }
 
+    /// The part with this name of a file.
+    pub fn of_file_name(name: &str) -> Option<Self> {
+        let (stratum, piece) = name.strip_suffix(".part")?.split_once('-')?;
+        let key = Self { stratum: stratum.parse().ok()?, piece: piece.parse().ok()? };
+        (key.file_name() == name).then_some(key)
+    }
+
     /// Every part of `strata` strata of `n` encounters, in order.
     pub fn all(strata: usize, n: u64) -> impl Iterator<Item = Self> {
         let pieces = n.div_ceil(PART_ENCOUNTERS);

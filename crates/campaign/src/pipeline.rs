@@ -35,6 +35,8 @@ pub struct Finished {
     pub cases: Cases,
     /// What went wrong, clustered.
     pub findings: Findings,
+    /// Ids of the runs on which the judges disagree, as many as the summary lists.
+    pub disagreements: Vec<String>,
 }
 
 /// The parts of shard `index` (from 1) of `of`; `(1, 1)` is all of them.
@@ -62,17 +64,20 @@ pub fn finish(plan: &Plan, folder: &Folder, sink: &mut dyn RowSink) -> Result<Fi
     let mut root = RootDigest::new();
     let mut cases = Cases::default();
     let mut findings = Findings::default();
+    let mut disagreements = Vec::new();
     let mut encounters = 0;
     for key in shard_keys(plan, (1, 1)) {
-        let part = part::read(&folder.parts(), folder.plan_hash(), key)?;
+        let part = part::read(&folder.parts_of(key), folder.plan_hash(), key)?;
         for row in &part.rows {
             root.push(row.digest);
             cases.offer(row);
             findings.offer(row);
+            summary::list_disagreement(&mut disagreements, row);
         }
         tallies.stratum_mut(&plan.strata[key.stratum as usize]).merge(&part.tally);
         encounters += part.rows.len() as u64;
         sink.push(part.rows)?;
     }
-    Ok(Finished { tallies, root_digest: root.hex(), encounters, cases, findings })
+    let root_digest = root.hex();
+    Ok(Finished { tallies, root_digest, encounters, cases, findings, disagreements })
 }

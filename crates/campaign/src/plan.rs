@@ -87,8 +87,13 @@ impl RulesChoice {
     /// A rule set from its text; refuses one that contradicts itself.
     pub fn new(name: &str, text: String) -> Result<Self, Error> {
         rules::RuleSet::parse(&text).map_err(|e| Error::input(format!("rule set {name}: {e}")))?;
-        let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
+        let hash = Self::hash_of(&text);
         Ok(Self { name: name.to_owned(), hash, text, by_own_length: BTreeMap::new() })
+    }
+
+    /// BLAKE3 of a rule set's text, hexadecimal.
+    pub fn hash_of(text: &str) -> String {
+        blake3::hash(text.as_bytes()).to_hex().to_string()
     }
 
     /// The parsed rule sets: by name, or one under the empty name for every encounter.
@@ -101,6 +106,16 @@ impl RulesChoice {
         }
         let sets = self.by_own_length.iter();
         sets.map(|(name, text)| Ok((name.clone(), parse(name, text)?))).collect()
+    }
+
+    /// The one rule set.
+    ///
+    /// # Errors
+    /// There are several, by own ship's length.
+    pub fn rule_set(&self) -> Result<rules::RuleSet, Error> {
+        self.rule_sets()?.remove("").ok_or_else(|| {
+            Error::input(format!("{} is several rule sets; name one with --rules", self.name))
+        })
     }
 
     /// The key into [`Self::rule_sets`] for an own ship of this length, metres.

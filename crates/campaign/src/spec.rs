@@ -62,6 +62,8 @@ pub struct RunTable {
     pub planner_hang_limit_s: f64,
     /// Share of the runs that is run twice and compared bit for bit.
     pub twice_run_share: f64,
+    /// Whether the second judge is asked about every run too.
+    pub second_judge: bool,
 }
 
 impl RunTable {

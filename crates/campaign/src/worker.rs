@@ -1,11 +1,12 @@
 //! One worker: draws an encounter, runs it, judges it, makes its row.
 
 use crate::inflight::InFlight;
+use crate::judges::{Disagreement, Judges};
 use crate::plan::EncounterSource;
 use crate::{Error, Plan, row};
 use planner_api::{Planner, PlannerEntry, Registry};
 use record::verdict::Judgement;
-use record::{Digest, Encounter, EncounterId, Outcome, RunRow, Trace};
+use record::{Encounter, EncounterId, Outcome, RunRow, Trace};
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU64;
 
@@ -49,6 +50,8 @@ pub struct Run {
     pub trace: Trace,
     /// What the judge says of it.
     pub judgement: Judgement,
+    /// Where the second judge disagrees; absent where it was not asked.
+    pub disagreements: Option<Vec<Disagreement>>,
     /// The row.
     pub row: RunRow,
     /// Draws that were rejected on the way.
@@ -59,7 +62,7 @@ pub struct Run {
 pub struct Worker<'a> {
     shop: &'a Shop<'a>,
     planner: Box<dyn Planner>,
-    judges: BTreeMap<String, rules::Judge>,
+    judges: BTreeMap<String, Judges>,
     scratch: sim::Scratch,
 }
 
@@ -78,8 +81,11 @@ impl<'a> Worker<'a> {
             judges: shop
                 .rules
                 .iter()
-                .map(|(name, rules)| (name.clone(), rules::Judge::new(rules.clone())))
-                .collect(),
+                .map(|(name, rules)| {
+                    let judges = Judges::new(rules.clone(), shop.plan.run.second_judge)?;
+                    Ok((name.clone(), judges))
+                })
+                .collect::<Result<_, Error>>()?,
             scratch: sim::Scratch::default(),
         })
     }
@@ -116,17 +122,11 @@ impl<'a> Worker<'a> {
             self.planner = self.shop.planner()?;
         }
         let key = self.shop.plan.rules.key(encounter.own.hull.length_m);
-        let judge = self.judges.get_mut(key).expect("the plan found a profile for every length");
-        let judgement = judge.judge(&trace);
-        let row = match trace.outcome {
-            // what a panic leaves behind depends on how far it came: id and outcome alone count
-            Outcome::PlannerPanicked
-            | Outcome::PlannerCrashed
-            | Outcome::PlannerHung
-            | Outcome::PlannerProtocol => row::of_lost_run(&encounter, trace.outcome),
-            _ => row::of_run(&encounter, &trace, Digest::of_trace(&trace), &judgement),
-        };
-        Ok(Run { encounter, trace, judgement, row, rejected })
+        let judges = self.judges.get_mut(key).expect("the plan found a profile for every length");
+        let judged = judges.judge(&trace);
+        let row = judged.row(&encounter, &trace);
+        let (judgement, disagreements) = (judged.judgement, judged.disagreements);
+        Ok(Run { encounter, trace, judgement, disagreements, row, rejected })
     }
 }
 

@@ -208,12 +208,7 @@ pub(crate) fn bounds(rate: &BoundedRate) -> String {
     format!("{} to {}", per_cent(rate.lower_95), per_cent(rate.upper_95))
 }
 
-/// The rate of a check among the runs to which it applied: inconclusive ones are unknown.
-pub(crate) fn check_rate(of: impl Fn(Status) -> u64) -> BoundedRate {
-    let [pass, warn, fail, inconclusive] =
-        [Status::Pass, Status::Warn, Status::Fail, Status::Inconclusive].map(of);
-    BoundedRate::new(fail, inconclusive, pass + warn + fail + inconclusive)
-}
+pub(crate) use summary::check_rate;
 
 fn turn_rate(summary: &StratumSummary) -> BoundedRate {
     check_rate(|status| summary.turn_direction.get(&status).copied().unwrap_or(0))

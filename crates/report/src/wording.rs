@@ -115,11 +115,20 @@ pub(crate) fn not_claimed(input: &ReportInput, whole: &Group) -> Vec<String> {
     }
     if whole.tally.second_judge_asked > 0 {
         sentences.push(format!(
-            "A second judge was asked about {} and disagreed in {}.",
+            "A second judge was asked about {} and disagreed in {}{}.",
             encounters(whole.tally.second_judge_asked),
-            count(whole.tally.judges_disagree)
+            count(whole.tally.judges_disagree),
+            disagreements(&input.summary.second_judge)
         ));
     }
     sentences.extend(input.card.not_claimed.iter().cloned());
     sentences
+}
+
+/// Which encounters the judges disagree on, the first few of them.
+fn disagreements(judge: &summary::SecondJudge) -> String {
+    const SHOWN: usize = 20;
+    let more = if judge.disagree > SHOWN as u64 { ", ..." } else { "" };
+    let ids: Vec<&str> = judge.ids.iter().take(SHOWN).map(String::as_str).collect();
+    if ids.is_empty() { String::new() } else { format!(": {}{more}", ids.join(", ")) }
 }

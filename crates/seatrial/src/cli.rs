@@ -97,6 +97,39 @@ pub(crate) enum Command {
         #[arg(long, value_name = "N")]
         sample_seed: Option<u64>,
     },
+    /// Judge a finished campaign again, under another rule set
+    ///
+    /// Runs every encounter again from its seed, compares its digest with the stored one, and
+    /// writes a second verdict table and summary into DIR/judged-<rules>/.
+    #[command(after_help = EXIT_CODES)]
+    Judge(JudgeArgs),
+    /// List the parts of a sharded campaign that are not there
+    #[command(after_help = EXIT_CODES)]
+    Missing {
+        /// Folder that holds the shards, as `shard-*`
+        dir: PathBuf,
+        /// Further folders, one shard each
+        shards: Vec<PathBuf>,
+        /// List the shards to be run again instead, of this many
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+        of: Option<u64>,
+    },
+    /// Put the parts of a sharded campaign together, as one machine would have
+    #[command(after_help = EXIT_CODES)]
+    Merge {
+        /// Folder that holds the shards, as `shard-*`; the result goes there
+        dir: PathBuf,
+        /// Further folders, one shard each
+        shards: Vec<PathBuf>,
+        /// No table
+        #[arg(long)]
+        quiet: bool,
+    },
+    /// Write the job array of a sharded campaign
+    ///
+    /// One task for each shard, with bounded retries, and a job that merges when all have ended.
+    #[command(after_help = EXIT_CODES)]
+    Slurm(SlurmArgs),
     /// The engine process of a campaign; the supervisor starts it
     #[command(hide = true)]
     Engine {
@@ -109,6 +142,55 @@ pub(crate) enum Command {
         #[arg(long)]
         suspect: Option<String>,
     },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct JudgeArgs {
+    /// Folder of a finished result
+    pub(crate) dir: PathBuf,
+    /// Rule set, a name or a file [with --sweep default: the campaign's]
+    #[arg(long, value_name = "NAME", required_unless_present = "sweep")]
+    pub(crate) rules: Option<String>,
+    /// Show how every rate moves with one threshold, such as head_on_half_angle_deg=5,10,13,15,22.5
+    #[arg(long, value_name = "KEY=VALUES")]
+    pub(crate) sweep: Option<crate::sweep::Values>,
+    /// Worker threads [default: one for each processor]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// No progress and no table
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SlurmArgs {
+    /// A campaign file, or the name of one that is built in
+    #[arg(value_name = "FILE|NAME")]
+    pub(crate) campaign: String,
+    /// Number of shards, one task each; at most 1000
+    #[arg(long, value_name = "N")]
+    pub(crate) shards: u64,
+    /// Folder on a file system that all nodes share: scripts, shards, and the merged result
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// A planner of the registry [default: the campaign's, where it names one]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) planner: Option<String>,
+    /// Encounters of each stratum, instead of the campaign's
+    #[arg(long, value_name = "N")]
+    pub(crate) encounters: Option<u64>,
+    /// Seed, instead of the campaign's
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Processors and worker threads of a task
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) threads: u64,
+    /// Longest time of a task, in Slurm's form
+    #[arg(long, value_name = "TIME", default_value = "04:00:00")]
+    pub(crate) time: String,
+    /// How often a task is tried, and how often it may be requeued
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    pub(crate) attempts: u64,
 }
 
 #[derive(Debug, Args)]

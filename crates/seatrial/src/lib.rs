@@ -20,6 +20,7 @@ mod manifest;
 mod obstacles;
 mod progress;
 mod rendering;
+mod sweep;
 mod timing;
 
 use clap::Parser;

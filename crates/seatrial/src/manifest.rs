@@ -1,5 +1,6 @@
 //! `manifest.json`: what made a result, the plan it followed, and hashes of every other file.
 
+use campaign::folder::{JUDGED, SHARD};
 use campaign::{Error, Finished, Plan};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -37,14 +38,17 @@ pub(crate) fn write(folder: &Path, plan: &Plan, finished: &Finished) -> Result<(
     crate::files::write(&folder.join("manifest.json"), text.as_bytes())
 }
 
-/// SHA-256 of every file of a result but the manifest itself, wall-clock facts, and what only a
-/// partial result needs.
+/// SHA-256 of every file of a result but the manifest itself, wall-clock facts, what only a
+/// partial result needs, and what was judged later.
 fn hashes(folder: &Path) -> Result<BTreeMap<String, String>, Error> {
     const LEFT_OUT: [&str; 4] = ["manifest.json", "timing.json", "state", "replay"];
     let mut found = BTreeMap::new();
     for path in crate::files::below(folder)? {
         let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
-        if LEFT_OUT.iter().any(|out| name == *out || name.starts_with(&format!("{out}/"))) {
+        let left_out =
+            LEFT_OUT.iter().any(|out| name == *out || name.starts_with(&format!("{out}/")))
+                || [JUDGED, SHARD].iter().any(|prefix| name.starts_with(prefix));
+        if left_out {
             continue;
         }
         let bytes = fs::read(&path).map_err(Error::io("read", &path))?;

@@ -31,7 +31,7 @@ impl Rendering {
         registry: &Registry,
         tallies: Tallies,
         root_digest: String,
-        (cases, findings): (&Cases, &Findings),
+        (cases, findings, disagreements): (&Cases, &Findings, &[String]),
     ) -> Result<Self, Error> {
         campaign::engine::quiet_planner_panics();
         let mut shown = Shown { plan, registry, runs: BTreeMap::new() };
@@ -51,7 +51,8 @@ impl Rendering {
             seed: plan.seed,
             root_digest,
         };
-        let summary = Summary::new(head, &tallies, plan.strata.iter().map(String::as_str));
+        let summary = Summary::new(head, &tallies, plan.strata.iter().map(String::as_str))
+            .with_disagreements(disagreements.to_vec());
         Ok(Self { card: card(plan)?, summary, tallies, findings, cases })
     }
 

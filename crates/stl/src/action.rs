@@ -58,6 +58,11 @@ pub struct Action {
     pub turn_rad: Vec<f64>,
     /// `x_u`: loss of speed as a share of the speed before.
     pub speed_cut: Vec<f64>,
+    /// First sample at which an offset may be the action's: what she did before is what it is
+    /// measured from.
+    pub from: usize,
+    /// The run whose side counts.
+    pub counted: Option<Run>,
     /// +1 or -1, the side of the first run that counts; 0 without one.
     pub side: f64,
     /// Start of the first run back, at which the action is over.
@@ -98,19 +103,25 @@ impl Action {
         let change_0 = mean(&deviation.speed_change_mps);
         let speed_0 = mean(&deviation.speed_mps);
         let cut = |change: &f64| if speed_0 > 0.0 { (change_0 - change) / speed_0 } else { 0.0 };
-        let counted = turns
-            .iter()
-            .find(|run| run.change.abs() >= params.turn_action_rad)
-            .or_else(|| turns.first());
-        let side = counted.map_or(0.0, |run| run.change.signum());
-        let back = |run: &&Run| {
-            run.change * side < 0.0
-                && counted.is_some_and(|action| run.start > action.start)
+        let back_from = |action: &Run, run: &Run| {
+            run.change * action.change < 0.0
+                && run.start > action.start
                 && settled(&lives[target], run.start, params)
         };
+        // A turn back to the route is no action, however large (section 5).
+        let acts = |run: &&Run| {
+            run.change.abs() >= params.turn_action_rad
+                && !turns.first().is_some_and(|first| back_from(first, run))
+        };
+        let counted = turns.iter().find(acts).or_else(|| turns.first()).copied();
+        let side = counted.map_or(0.0, |run| run.change.signum());
+        let back = |run: &&Run| counted.is_some_and(|action| back_from(&action, run));
         Self {
-            turn_rad: deviation.heading_rad.iter().map(|h| wrapped_rad(h - heading_0)).collect(),
+            // Unwrapped: a ship that turns 200 degrees to port is not 160 to starboard.
+            turn_rad: deviation.heading_rad.iter().map(|h| h - heading_0).collect(),
             speed_cut: deviation.speed_change_mps.iter().map(cut).collect(),
+            from: first.unwrap_or(duty.onset).max(duty.begin),
+            counted,
             side,
             returns: turns.iter().find(back).map(|run| run.start),
             turns,

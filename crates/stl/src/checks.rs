@@ -11,6 +11,7 @@ use crate::runs::Run;
 use crate::signals::{ABAFT_THE_BEAM_RAD, Course, PairSignals, crossing_ahead_m};
 use record::{Check, EncounterClass, LastInstant, Trace};
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
 /// A formula with its signals, or why there is none.
 #[derive(Clone, Debug)]
@@ -113,9 +114,15 @@ impl<'a> Case<'a> {
         &self.life().actual
     }
 
-    /// No columns yet, up to the end of the clock: what follows has no say.
+    /// No columns yet, up to the end of the clock and as long as an offset that was made by then
+    /// must be held: what follows has no say.
     pub(crate) fn signals_of(&self, duty: &Duty) -> Signals {
-        Signals::new((duty.end + 1).min(self.pair().samples()))
+        Signals::new((duty.end + 1 + self.hold).min(self.pair().samples()))
+    }
+
+    /// Where an offset that was made within `range` has been held: it counts by when it was made.
+    pub(crate) fn made_in(&self, range: Range<usize>) -> Vec<f64> {
+        self.flags(|k| k.checked_sub(self.hold).is_some_and(|made| range.contains(&made)))
     }
 
     pub(crate) fn flags(&self, holds: impl Fn(usize) -> bool) -> Vec<f64> {
@@ -188,8 +195,7 @@ impl<'a> Case<'a> {
             return if idle { Claim::NotApplicable } else { Claim::NotEvaluated };
         }
         let over = own.returns.unwrap_or(usize::MAX);
-        let counts = |(k, turn): (usize, &f64)| if k < over { own.side * turn } else { 0.0 };
-        let action = own.turn_rad.iter().enumerate().map(counts).collect();
+        let action = own.turn_rad.iter().map(|turn| own.side * turn).collect();
         let passed_m = self.trace.pairs[self.target].minimum.of(self.trace.distance).0;
         let planned = self.trace.nominal.as_ref().and_then(|n| n.minima.get(self.target));
         let gained = planned.is_none_or(|m| passed_m > m.of(self.trace.distance).0);
@@ -200,7 +206,8 @@ impl<'a> Case<'a> {
             formula: phi::apparent(turn_rad, self.hold, p),
             signals: self
                 .signals_of(duty)
-                .with(c::CLOCK, self.flags(|k| (duty.begin..=duty.end).contains(&k)))
+                .with(c::CLOCK, self.made_in(own.from..duty.end + 1))
+                .with(c::TURN_CLOCK, self.made_in(own.from..over.min(duty.end + 1)))
                 .with(c::ACTION_RAD, action)
                 .with(c::SPEED_CUT, own.speed_cut.clone())
                 .with(c::SMALL_DID, self.flags(|_| small_did)),
@@ -212,50 +219,66 @@ impl<'a> Case<'a> {
         let p = self.params;
         let counts = |run: &&Run| run.change >= p.turn_action_rad;
         let starboard = action.turns.iter().find(counts).map_or(usize::MAX, |run| run.start);
-        let before = action.turns.iter().rfind(|run| run.start < duty.onset);
-        // What was turned to port before risk opened was free; only what came on top counts.
-        let blamed_from = before.map_or(duty.begin, |run| run.end.max(duty.onset));
-        let free = if before.is_some() {
-            action.turn_rad[blamed_from.min(action.turn_rad.len() - 1)].min(0.0)
-        } else {
-            0.0
-        };
-        let blame = |(k, x): (usize, &f64)| if k < blamed_from { 0.0 } else { x - free };
-        let port = action.turn_rad.iter().enumerate().map(blame).collect();
-        let settled = duty.never_opened && before.is_some();
+        // What was turned to port before risk opened was free.
+        let early = self.turned_early(duty, action);
+        let settled = duty.never_opened && self.seen_before(duty.onset, action);
+        let end = duty.end + 1;
+        let before = if early { action.from..action.from } else { action.from..starboard.min(end) };
         Claim::Formula {
             formula: phi::head_on(self.hold, p),
             signals: self
                 .signals_of(duty)
-                .with(c::CLOCK, self.flags(|k| (duty.begin..=duty.end).contains(&k)))
-                .with(c::CLEAR, self.flags(|k| k >= duty.end && duty.complete))
-                .with(c::PORT_RAD, port)
+                .with(c::CLOCK, self.made_in(action.from..end))
+                .with(c::PORT_CLOCK, self.made_in(before))
                 .with(c::TURN_RAD, action.turn_rad.clone())
-                .with(c::STARBOARD_BEGUN, self.flags(|k| k >= starboard))
                 .with(c::SETTLED_EARLY, self.flags(|_| settled)),
             complete: duty.complete,
         }
     }
 
+    /// Whether an offset that could be seen, and was held, was made before sample `onset`.
+    fn seen_before(&self, onset: usize, action: &Action) -> bool {
+        let last = action.turn_rad.len().saturating_sub(self.hold);
+        [1.0, -1.0].into_iter().any(|side| {
+            let seen = |x: &f64| side * x >= self.params.turn_detectable_rad;
+            (action.from..onset.min(last))
+                .any(|k| action.turn_rad[k..=(k + self.hold).min(last)].iter().all(seen))
+        })
+    }
+
+    /// Whether the turn that counts was begun before risk opened.
+    pub(crate) fn turned_early(&self, duty: &Duty, action: &Action) -> bool {
+        action.counted.is_some_and(|run| run.start < duty.onset)
+    }
+
     fn crossing(&self, duty: &Duty) -> Claim {
         let p = self.params;
-        let open = |k: usize| duty.open.iter().any(|o| o.contains(&k));
+        // A crossing lies between a sample and the one before.
+        let open =
+            |k: usize| duty.open.iter().any(|o| o.contains(&k) || o.contains(&k.saturating_sub(1)));
         Claim::Formula {
             formula: phi::crossing(p),
             signals: self
                 .signals_of(duty)
-                .with(c::CLOCK, self.flags(|k| (duty.onset..=duty.end).contains(&k)))
+                .with(c::CLOCK, self.flags(|k| (duty.onset + 1..=duty.end).contains(&k)))
                 .with(c::CLEAR, self.flags(|k| k >= duty.end && duty.complete))
                 .with(c::OPEN, self.flags(open))
-                .with(c::AHEAD_M, crossing_ahead_m(self.pair(), Course::MadeGood, p.preferred_m)),
+                .with(c::AHEAD_M, self.ahead_m(Course::MadeGood)),
             complete: duty.complete,
         }
+    }
+
+    /// The margin of crossing ahead: from her bow to own hull where distances are hull to hull.
+    fn ahead_m(&self, course: Course) -> Vec<f64> {
+        let hulls = self.trace.distance == record::DistanceKind::Hull;
+        crossing_ahead_m(self.pair(), course, self.params.preferred_m, hulls)
     }
 
     fn overtaking(&self, duty: &Duty) -> Claim {
         let p = self.params;
         let pair = self.pair();
-        let release = released(pair, duty.class, p, self.trace.sample_s, duty.onset);
+        let release =
+            released(pair, duty.class, p, self.trace.sample_s, duty.onset, &self.distances());
         let last = release.unwrap_or(usize::MAX);
         let alpha: Vec<f64> = (0..pair.samples()).map(|k| pair.alpha_rad(k).abs()).collect();
         // Not only the runs that belong to the risk: this duty outlives it.
@@ -270,7 +293,7 @@ impl<'a> Case<'a> {
         let signals = self
             .with_distance(Signals::new(pair.samples()))
             .with(c::CLOCK, self.flags(|k| (duty.onset..=last).contains(&k)))
-            .with(c::AHEAD_M, crossing_ahead_m(pair, Course::Heading, p.preferred_m))
+            .with(c::AHEAD_M, self.ahead_m(Course::Heading))
             .with(c::CLOSING, self.flags(|k| pair.range_rate_mps[k] < 0.0))
             .with(c::TURNED_IN, self.flags(turned_in))
             .with(c::ALPHA_RAD, alpha);
@@ -317,7 +340,7 @@ impl<'a> Case<'a> {
         };
         let signals = self
             .signals_of(duty)
-            .with(c::CLOCK, self.flags(|k| (duty.begin..=duty.end).contains(&k)))
+            .with(c::CLOCK, self.made_in(duty.begin..duty.end + 1))
             .with(c::PORT_TURN, self.flags(forward))
             .with(c::TURN_RAD, own.turn_rad.clone())
             .with(c::TOWARD_RAD, (0..pair.samples()).map(toward).collect());

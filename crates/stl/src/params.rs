@@ -71,6 +71,8 @@ pub struct Params {
     pub release_hold_s: f64,
     /// Past and clear of an overtaken ship within this angle of the bow.
     pub release_overtaking_rad: f64,
+    /// Past and clear of a meeting or crossing ship when one has the other this far abaft her bow.
+    pub release_abaft_rad: f64,
     /// Past and clear of any ship beyond this multiple of `R_2`.
     pub release_range_factor: f64,
     /// Rule 13(d): too close ahead within this angle of the other's bow.

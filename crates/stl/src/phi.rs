@@ -2,7 +2,8 @@
 //!
 //! Each is anchored at the first sample of the trace; the flag `clock` says where the clock of
 //! section 3 runs. Contract: the robustness is negative exactly where the prose says FAIL.
-//! `held` asks for the offset to have lasted, looking back, so that nothing after the clock counts.
+//! `held` asks for the offset to have lasted, looking back; the flags that bound it look at when it
+//! was made, so that an offset made within the clock counts, and one made after it does not.
 
 use crate::formula::{Formula, always, at_least, at_most, eventually, flag, held};
 use crate::params::Params;
@@ -21,18 +22,20 @@ pub mod column {
     pub const ACTION_RAD: &str = "action_rad";
     /// Signed offset of the heading, radians.
     pub const TURN_RAD: &str = "turn_rad";
-    /// Offset to port that can be blamed (negative), radians.
-    pub const PORT_RAD: &str = "port_rad";
+    /// Flag: an offset on the action side, held until now, was made before the first return.
+    pub const TURN_CLOCK: &str = "turn_clock";
+    /// Flag: an offset to port, held until now, was made where it can be blamed.
+    pub const PORT_CLOCK: &str = "port_clock";
     /// Share of the speed that was taken off.
     pub const SPEED_CUT: &str = "speed_cut";
     /// Change of the speed of a stand-on ship, either way, as a share.
     pub const SPEED_CHANGE: &str = "speed_change";
+    /// Flag: a change of speed, held until now, was made while she had to keep it.
+    pub const SPEED_CLOCK: &str = "speed_clock";
     /// Change of her mean heading, either way, radians.
     pub const YAW_RAD: &str = "yaw_rad";
     /// Flag: a small action is enough, because the passing distance shows that it was.
     pub const SMALL_DID: &str = "small_did";
-    /// Flag: the first starboard run that counts has begun.
-    pub const STARBOARD_BEGUN: &str = "starboard_begun";
     /// Flag: own ship had settled it before risk opened.
     pub const SETTLED_EARLY: &str = "settled_early";
     /// Margin of crossing ahead, metres, positive where she crosses.
@@ -63,19 +66,20 @@ pub fn apparent(turn_rad: f64, hold: usize, p: &Params) -> Formula {
     let reaches = |turn_rad: f64, speed: f64| {
         let turn = at_least(c::ACTION_RAD, turn_rad, p.scale.angle_rad);
         let slower = at_least(c::SPEED_CUT, speed, p.scale.speed);
-        eventually(flag(c::CLOCK).and(held(turn, hold).or(held(slower, hold))))
+        let turned = flag(c::TURN_CLOCK).and(held(turn, hold));
+        eventually(turned.or(flag(c::CLOCK).and(held(slower, hold))))
     };
     let small = reaches(p.turn_detectable_rad, p.speed_detectable);
     reaches(turn_rad, p.speed_action).or(flag(c::SMALL_DID).and(small))
 }
 
-/// Rule 14: to starboard, and not to port before.
+/// Rule 14: to starboard, and not to port before. "Not to port until starboard, or until the end"
+/// is written as a flag that ends with the first of the two.
 pub fn head_on(hold: usize, p: &Params) -> Formula {
-    let port = at_most(c::PORT_RAD, -p.turn_action_rad, p.scale.angle_rad);
-    let port = flag(c::CLOCK).and(held(port, hold));
-    let starboard = at_least(c::TURN_RAD, p.turn_action_rad, p.scale.angle_rad);
-    let turns = eventually(flag(c::CLOCK).and(held(starboard, hold)));
-    let first = port.negated().until(flag(c::STARBOARD_BEGUN).or(flag(c::CLEAR)));
+    let port = held(at_most(c::TURN_RAD, -p.turn_action_rad, p.scale.angle_rad), hold);
+    let starboard = held(at_least(c::TURN_RAD, p.turn_action_rad, p.scale.angle_rad), hold);
+    let turns = eventually(flag(c::CLOCK).and(starboard));
+    let first = always(flag(c::PORT_CLOCK).and(port).negated());
     flag(c::SETTLED_EARLY).or(first.and(turns))
 }
 
@@ -100,15 +104,15 @@ pub fn overtaking(p: &Params) -> Formula {
 pub fn stand_on(hold: usize, p: &Params) -> Formula {
     let turned = at_least(c::YAW_RAD, p.turn_action_rad, p.scale.angle_rad);
     let changed = at_least(c::SPEED_CHANGE, p.speed_action, p.scale.speed);
-    let acts = held(turned, hold).or(held(changed, hold));
-    always(flag(c::CLOCK).implies(acts.negated()))
+    let turned = flag(c::CLOCK).and(held(turned, hold));
+    let changed = flag(c::SPEED_CLOCK).and(held(changed, hold));
+    always(turned.or(changed).negated())
 }
 
 /// Rule 17(c): not to port for a ship on the port side.
 pub fn not_to_port(hold: usize, p: &Params) -> Formula {
     let port = at_most(c::TURN_RAD, -p.turn_action_rad, p.scale.angle_rad);
-    let turning = flag(c::CLOCK).and(flag(c::PORT_TURN));
-    always(turning.implies(held(port, hold).negated()))
+    always(flag(c::CLOCK).implies(held(port, hold).negated()))
 }
 
 /// Rule 19(d): not to port for a ship forward of the beam, not toward one abeam or abaft it.

@@ -126,20 +126,21 @@ pub fn class_that_decides(beta_rad: f64, alpha_rad: f64, params: &Params) -> Enc
 }
 
 /// The first sample, at or after `from`, of the stretch in which the ships are finally past and
-/// clear (section 2).
+/// clear (section 2). `distance_m` is the campaign's kind of distance.
 pub fn released(
     pair: &PairSignals<'_>,
     class: EncounterClass,
     params: &Params,
     sample_s: f64,
     from: usize,
+    distance_m: &[f64],
 ) -> Option<usize> {
     let hold = samples_of(params.release_hold_s, sample_s);
     let mut streak = 0;
-    for k in from..pair.samples() {
+    for (k, distance_m) in distance_m.iter().enumerate().skip(from) {
         let clear = pair.tcpa_s[k] < 0.0
             && pair.range_rate_mps[k] > 0.0
-            && pair.range_m[k] > params.preferred_m
+            && *distance_m > params.preferred_m
             && (pair.range_m[k] > params.release_range_factor * params.stage_range_m[0]
                 || past(pair, class, params, k));
         streak = if clear { streak + 1 } else { 0 };
@@ -157,7 +158,8 @@ fn past(pair: &PairSignals<'_>, class: EncounterClass, params: &Params, k: usize
         // A ship that does not move has no bow to pass: abaft own beam is past.
         EncounterClass::Static => pair.beta_rad(k).abs() > FRAC_PI_2,
         EncounterClass::HeadOn | EncounterClass::CrossingStbd | EncounterClass::CrossingPort => {
-            pair.overtaking_geometry(k)
+            pair.beta_rad(k).abs() > params.release_abaft_rad
+                || pair.alpha_rad(k).abs() > params.release_abaft_rad
         }
     }
 }

@@ -180,26 +180,21 @@ fn smoothed(values: &[f64], deviation_s: f64, sample_s: f64) -> Vec<f64> {
     };
     let kernel: Vec<f64> = (0..=reach).map(weight).collect();
     let total = kernel[0] + 2.0 * kernel[1..].iter().sum::<f64>();
-    let mut smooth = vec![0.0; values.len()];
-    for (k, out) in smooth.iter_mut().enumerate() {
-        let (mut sum, mut weights) = (kernel[0] * values[k], total);
-        if k >= reach && k + reach < values.len() {
-            for (i, w) in kernel.iter().enumerate().skip(1) {
-                sum += w * (values[k - i] + values[k + i]);
-            }
-        } else {
-            weights = kernel[0];
-            for (i, w) in kernel.iter().enumerate().skip(1) {
-                let behind = k.checked_sub(i).map(|at| values[at]);
-                for value in [behind, values.get(k + i).copied()].into_iter().flatten() {
-                    sum += w * value;
-                    weights += w;
-                }
-            }
-        }
-        *out = sum / weights;
-    }
-    smooth
+    let last = values.len().saturating_sub(1);
+    // Beyond its ends the signal goes on as it came, turned about its end point: a ship that starts
+    // the run turning has her rate from the first sample on.
+    let at = |k: isize| match usize::try_from(k) {
+        Err(_) => 2.0 * values[0] - values[k.unsigned_abs().min(last)],
+        Ok(k) if k > last => 2.0 * values[last] - values[last - (k - last).min(last)],
+        Ok(k) => values[k],
+    };
+    let smooth = |k: usize| {
+        let around = kernel.iter().enumerate().skip(1);
+        let sum: f64 =
+            around.map(|(i, w)| w * (at(k as isize - i as isize) + at((k + i) as isize))).sum();
+        (kernel[0] * values[k] + sum) / total
+    };
+    (0..values.len()).map(smooth).collect()
 }
 
 /// Central difference, one-sided at the ends.

@@ -153,17 +153,30 @@ impl<'a> PairSignals<'a> {
     /// Where own ship lies to the target's projected track: metres ahead of her bow along
     /// `course`, and metres to starboard of it.
     pub fn ahead_and_abeam_m(&self, k: usize, course: Course) -> Plane {
-        let (north, east) = match course {
+        let (north, east) = self.line(k, course);
+        let (dn, de) = (-self.position_m[k].0, -self.position_m[k].1);
+        let hull = &self.target.ship.hull;
+        let bow_m = hull.midships_forward_m + hull.length_m / 2.0;
+        (dn * north + de * east - bow_m, de * north - dn * east)
+    }
+
+    /// How far own hull reaches from its reference point back towards the target along her line.
+    fn own_reach_m(&self, k: usize, course: Course) -> f64 {
+        let (north, east) = self.line(k, course);
+        let (sin, cos) = libm::sincos(self.own.psi_rad[k]);
+        let back = |x: f64, y: f64| -(north * (cos * x - sin * y) + east * (sin * x + cos * y));
+        let corners = self.own.ship.hull.corners_body_m();
+        corners.iter().map(|c| back(c.x, c.y)).fold(0.0, f64::max)
+    }
+
+    fn line(&self, k: usize, course: Course) -> Plane {
+        match course {
             Course::MadeGood => self.target_course(k),
             Course::Heading => {
                 let (sin, cos) = libm::sincos(self.target.psi_rad[k]);
                 (cos, sin)
             }
-        };
-        let (dn, de) = (-self.position_m[k].0, -self.position_m[k].1);
-        let hull = &self.target.ship.hull;
-        let bow_m = hull.midships_forward_m + hull.length_m / 2.0;
-        (dn * north + de * east - bow_m, de * north - dn * east)
+        }
     }
 
     fn target_course(&self, k: usize) -> Plane {
@@ -196,20 +209,27 @@ pub enum Course {
 
 /// For every sample the margin, in metres, by which own ship crossed the target's projected track
 /// between 0 and `reach_m` ahead of her bow since the sample before: positive where she did,
-/// negative by the distance to having done so where she did not.
-pub fn crossing_ahead_m(pair: &PairSignals<'_>, course: Course, reach_m: f64) -> Vec<f64> {
+/// negative by the distance to having done so where she did not. Own reference point must have
+/// crossed ahead of the bow; with `hulls` the distance ends at the nearest part of own hull.
+pub fn crossing_ahead_m(
+    pair: &PairSignals<'_>,
+    course: Course,
+    reach_m: f64,
+    hulls: bool,
+) -> Vec<f64> {
     let mut before: Option<Plane> = None;
     (0..pair.samples())
         .map(|k| {
             let (ahead, abeam) = pair.ahead_and_abeam_m(k, course);
+            let limit_m = reach_m + if hulls { pair.own_reach_m(k, course) } else { 0.0 };
             let previous = before.replace((ahead, abeam));
             let crossed = previous.filter(|(_, abeam_0)| (*abeam_0 < 0.0) != (abeam < 0.0));
             if let Some((ahead_0, abeam_0)) = crossed {
                 let share = abeam_0 / (abeam_0 - abeam);
                 let at = ahead_0 + share * (ahead - ahead_0);
-                at.min(reach_m - at)
+                at.min(limit_m - at)
             } else {
-                -abeam.abs().max(-ahead).max(ahead - reach_m)
+                -abeam.abs().max(-ahead).max(ahead - limit_m)
             }
         })
         .collect()

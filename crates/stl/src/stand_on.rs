@@ -24,9 +24,11 @@ impl Case<'_> {
         let change_0 = self.deviation.speed_change_mps[from];
         let change = |v: &f64| if speed_0 > 0.0 { (v - change_0).abs() / speed_0 } else { 0.0 };
         let changes = self.deviation.speed_change_mps.iter().map(change).collect();
+        let made = |k: usize| k.checked_sub(self.hold).is_some_and(bound);
         let signals = self
             .signals_of(duty)
             .with(c::CLOCK, self.flags(bound))
+            .with(c::SPEED_CLOCK, self.flags(made))
             .with(c::YAW_RAD, self.mean_yaw_rad(from, to))
             .with(c::SPEED_CHANGE, changes);
         let complete = duty.complete || ends.is_some();
@@ -74,32 +76,26 @@ impl Case<'_> {
         excused
     }
 
-    /// Rule 17(c): a port turn begun in stage 3 for a ship on the port side.
+    /// Rule 17(c): off to port in stage 3 for a ship that was on the port side when she acted. When
+    /// the turn was begun does not matter, but before risk opened it was free.
     pub(crate) fn not_to_port(&self, duty: &Duty, action: &Action) -> Claim {
         let p = self.params;
-        let pair = self.pair();
         let Some(stage_3) = duty.stages[1] else { return Claim::NotApplicable };
-        let stage_4 = duty.stages[2].filter(|_| !p.port_turn_fails_in_stage_4);
-        let last = stage_4.unwrap_or(duty.end + 1);
-        let on_port = |k: usize| {
-            let beta = pair.beta_rad(k);
+        let on_port = |run: Run| {
+            let beta = self.pair().beta_rad(run.start);
             beta < 0.0 && beta > -ABAFT_THE_BEAM_RAD
         };
-        if !(stage_3..last).any(on_port) {
+        if action.counted.is_some_and(|run| !on_port(run)) {
             return Claim::NotApplicable;
         }
-        let blamed = |run: &Run| {
-            run.change < 0.0 && (stage_3..last).contains(&run.start) && on_port(run.start)
-        };
-        let guilty: Vec<(usize, bool)> =
-            action.turns.iter().map(|run| (run.start, blamed(run))).collect();
-        let turning = |k: usize| {
-            guilty.iter().rfind(|(start, _)| *start <= k).is_some_and(|(_, blamed)| *blamed)
-        };
+        let stage_4 = duty.stages[2].filter(|_| !p.port_turn_fails_in_stage_4);
+        let last = stage_4.unwrap_or(duty.end + 1);
+        let forced = action.counted.is_some_and(|run| self.excused()[run.start]);
+        let free = forced || self.turned_early(duty, action);
+        let from = if free { last } else { stage_3.max(action.from) };
         let signals = self
             .signals_of(duty)
-            .with(c::CLOCK, self.flags(|k| (stage_3..=duty.end).contains(&k)))
-            .with(c::PORT_TURN, self.flags(turning))
+            .with(c::CLOCK, self.made_in(from..last))
             .with(c::TURN_RAD, action.turn_rad.clone());
         let formula = phi::not_to_port(self.hold, p);
         Claim::Formula { formula, signals, complete: duty.complete }

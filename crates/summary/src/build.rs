@@ -2,8 +2,8 @@
 
 use crate::summary::SCHEMA;
 use crate::{
-    BoundedRate, CpaSummary, PairedCounts, PairedRates, StratumSummary, Summary, SummaryHead,
-    Tallies, Tally, TimeSummary, Times,
+    BoundedRate, CpaSummary, PairedCounts, PairedRates, SecondJudge, StratumSummary, Summary,
+    SummaryHead, Tallies, Tally, TimeSummary, Times,
 };
 use record::{Check, EncounterClass, Outcome, Status};
 use std::collections::BTreeMap;
@@ -21,6 +21,12 @@ impl Summary {
     ) -> Self {
         let listed: Vec<&str> = order.into_iter().collect();
         let empty = Tally::new();
+        let sum = |of: fn(&Tally) -> u64| tallies.iter().map(|(_, tally)| of(tally)).sum();
+        let second_judge = SecondJudge {
+            asked: sum(|tally| tally.second_judge_asked),
+            disagree: sum(|tally| tally.judges_disagree),
+            ids: Vec::new(),
+        };
         let mut strata: Vec<StratumSummary> = listed
             .iter()
             .map(|name| StratumSummary::new(name, tallies.stratum(name).unwrap_or(&empty)))
@@ -38,6 +44,7 @@ impl Summary {
             seed: head.seed,
             encounters: strata.iter().map(|stratum| stratum.n).sum(),
             root_digest: head.root_digest,
+            second_judge,
             strata,
         }
     }
@@ -101,6 +108,14 @@ impl BoundedRate {
             upper_95: stats::clopper_pearson_upper(k + unknown, n, ALPHA / 2.0).expect(counts),
         }
     }
+}
+
+/// The rate of failures of a check among the runs to which it applied: inconclusive ones are
+/// unknown. `of` gives the number of runs with a status.
+pub fn check_rate(of: impl Fn(Status) -> u64) -> BoundedRate {
+    let [pass, warn, fail, inconclusive] =
+        [Status::Pass, Status::Warn, Status::Fail, Status::Inconclusive].map(of);
+    BoundedRate::new(fail, inconclusive, pass + warn + fail + inconclusive)
 }
 
 impl TimeSummary {

@@ -17,11 +17,13 @@ mod tally;
 mod times;
 
 pub use bearing_map::{BEARING_SECTORS, BearingMap, Cell, CellKey, RATIO_BANDS};
+pub use build::check_rate;
 pub use findings::{Event, Finding, Findings};
 pub use fixed_point::FixedSum;
 pub use risk::PairedCounts;
 pub use summary::{
-    BoundedRate, CpaSummary, PairedRates, StratumSummary, Summary, SummaryHead, TimeSummary,
+    BoundedRate, CpaSummary, PairedRates, SecondJudge, StratumSummary, Summary, SummaryHead,
+    TimeSummary, list_disagreement,
 };
 pub use tallies::Tallies;
 pub use tally::Tally;

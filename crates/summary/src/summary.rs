@@ -1,6 +1,6 @@
 //! `summary.json`, field by field.
 
-use record::{Check, EncounterClass, Outcome, Seed, Status};
+use record::{Check, EncounterClass, Outcome, RunRow, Seed, Status};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -36,8 +36,32 @@ pub struct Summary {
     pub encounters: u64,
     /// BLAKE3 over the run digests in order (stratum, j), hexadecimal.
     pub root_digest: String,
+    /// What the second judge said of the first.
+    pub second_judge: SecondJudge,
     /// One entry for each stratum, in the order of the campaign.
     pub strata: Vec<StratumSummary>,
+}
+
+/// How often the second, independent judge was asked, and how often it disagreed.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SecondJudge {
+    /// Runs that it was asked about.
+    pub asked: u64,
+    /// Those in which it contradicts a verdict of the first.
+    pub disagree: u64,
+    /// Their ids in order, the first of them where there are many; the table marks them all.
+    pub ids: Vec<String>,
+}
+
+/// Ids that `summary.json` lists.
+const IDS_LISTED: usize = 200;
+
+/// Adds a run to a list of disagreements, if it is one and the list is not full.
+pub fn list_disagreement(ids: &mut Vec<String>, row: &RunRow) {
+    if row.judges_disagree == Some(true) && ids.len() < IDS_LISTED {
+        ids.push(row.id.to_string());
+    }
 }
 
 impl Summary {
@@ -47,6 +71,13 @@ impl Summary {
             serde_json::to_string_pretty(self).expect("a summary has only string-like keys");
         text.push('\n');
         text
+    }
+
+    /// With the ids of the runs on which the judges disagree (see [`list_disagreement`]).
+    #[must_use]
+    pub fn with_disagreements(mut self, ids: Vec<String>) -> Self {
+        self.second_judge.ids = ids;
+        self
     }
 
     /// All rows of a planner whose outcome is unknown.

@@ -74,7 +74,7 @@ fn folder_name(planner: &str) -> String {
     planner.chars().map(safe).collect()
 }
 
-fn threads(asked: Option<usize>) -> Result<usize, Error> {
+pub(super) fn threads(asked: Option<usize>) -> Result<usize, Error> {
     match asked {
         Some(0) => Err(Error::input("--threads 0 runs nothing; ask for at least 1")),
         Some(n) => Ok(n),
@@ -126,7 +126,7 @@ impl Job<'_> {
         let shard = self.args.shard.unwrap_or((1, 1));
         self.run_parts(&folder, shard)?;
         stopwatch.lap("run");
-        if shard.1 > 1 {
+        if self.args.shard.is_some() {
             if !quiet {
                 println!("part {}/{} is done in {}", shard.0, shard.1, folder.parts().display());
             }

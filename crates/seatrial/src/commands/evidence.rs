@@ -69,7 +69,7 @@ pub(super) fn make(
         registry,
         gathered.tallies.clone(),
         gathered.root_digest.clone(),
-        (&gathered.cases, &gathered.findings),
+        (&gathered.cases, &gathered.findings, &gathered.disagreements),
     )?;
     // what changes from run to run must not get into what does not
     let stable: Files = given

@@ -49,7 +49,7 @@ pub(super) fn finish(
         registry,
         finished.tallies.clone(),
         finished.root_digest.clone(),
-        (&finished.cases, &finished.findings),
+        (&finished.cases, &finished.findings, &finished.disagreements),
     )?;
     files::write(&dir.join("summary.json"), rendering.summary.to_json().as_bytes())?;
     report::write(dir, &rendering.input()).map_err(|e| Error::Fault(format!("failed to {e}")))?;

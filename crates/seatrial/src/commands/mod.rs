@@ -6,12 +6,17 @@ mod engine;
 mod evidence;
 mod finish;
 mod intervals;
+mod judge;
 mod planners;
 mod replay;
+mod shards;
+mod slurm;
 mod speed;
 
 mod vectors;
 mod verify;
+
+pub(crate) use judge::JudgedAgain;
 
 use crate::cli::Command;
 use crate::exit::Ended;
@@ -34,6 +39,10 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
             let key = key.as_deref();
             verify::run(&verify::Wanted { pack: &pack, key, sample, seed: sample_seed }, registry)
         }
+        Command::Judge(args) => judge::run(&args, registry),
+        Command::Missing { dir, shards, of } => shards::missing(&dir, &shards, of),
+        Command::Merge { dir, shards, quiet } => shards::merge(&dir, &shards, registry, quiet),
+        Command::Slurm(args) => slurm::run(&args),
         Command::Engine { dir, threads, suspect } => {
             engine::run(&dir, threads, suspect.as_deref(), registry)
         }

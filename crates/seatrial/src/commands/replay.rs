@@ -32,6 +32,16 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
             println!("  {} {}: {sentence}", verdict.status.name(), verdict.check.title());
         }
     }
+    for d in run.disagreements.iter().flatten() {
+        println!(
+            "  the judges disagree on {}, target {}: {} {}, and the second finds {:?}",
+            d.check.title(),
+            d.target,
+            d.first.name(),
+            d.detail,
+            d.second
+        );
+    }
     let pictures = folder.path().join("replay");
     fs::create_dir_all(&pictures).map_err(Error::io("make", &pictures))?;
     let picture = pictures.join(format!("{}.svg", id.file_stem()));

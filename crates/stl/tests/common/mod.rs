@@ -47,6 +47,7 @@ pub(crate) const USV: Params = Params {
     attribution_lead_s: 120.0,
     release_hold_s: 10.0,
     release_overtaking_rad: deg(67.5),
+    release_abaft_rad: deg(112.5),
     release_range_factor: 1.05,
     overtaken_bow_rad: deg(45.0),
     port_turn_fails_in_stage_4: false,

@@ -1,0 +1,196 @@
+//! Both judges on one trace, and where they disagree.
+//!
+//! The first judge (`rules`) makes the verdicts. The second (`stl`) is asked where the campaign
+//! file says `second_judge = true`; its thresholds are those of the same rule set. It shares no code
+//! with the first, so a difference shows a slip of one of them. Reference: rules specification,
+//! section 12.
+
+use crate::{Error, row};
+use record::verdict::Judgement;
+use record::{Check, Digest, Encounter, Outcome, RunRow, Status, Trace, Verdict};
+use rules::{PortInExtremis, RuleSet, StageMode};
+use stl::{Finding, Robustness};
+
+/// The judges of one rule set.
+#[derive(Debug)]
+pub struct Judges {
+    first: rules::Judge,
+    second: Option<stl::Params>,
+}
+
+/// What the judges said of one run.
+#[derive(Debug)]
+pub struct Judged {
+    /// The verdicts of the first judge.
+    pub judgement: Judgement,
+    /// Where the second one disagrees; absent where it was not asked.
+    pub disagreements: Option<Vec<Disagreement>>,
+}
+
+/// One check of one pair on which the judges disagree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// Which check.
+    pub check: Check,
+    /// Index of the target.
+    pub target: u8,
+    /// Status of the first judge.
+    pub first: Status,
+    /// Its detail code.
+    pub detail: String,
+    /// Finding of the second judge.
+    pub second: Finding,
+    /// Its robustness.
+    pub rho: Option<f64>,
+}
+
+impl Judges {
+    /// The judges of a rule set, the second one if it is wanted.
+    ///
+    /// # Errors
+    /// The second judge is wanted and cannot express the rule set.
+    pub fn new(rules: RuleSet, second: bool) -> Result<Self, Error> {
+        let second = second.then(|| params(&rules)).transpose()?;
+        Ok(Self { first: rules::Judge::new(rules), second })
+    }
+
+    /// Judges one run.
+    pub fn judge(&mut self, trace: &Trace) -> Judged {
+        let judgement = self.first.judge(trace);
+        let disagreements = self
+            .second
+            .as_ref()
+            .map(|params| disagreements(&judgement, &stl::judge(trace, params)));
+        Judged { judgement, disagreements }
+    }
+}
+
+impl Judged {
+    /// The row of the run that was judged.
+    pub fn row(&self, encounter: &Encounter, trace: &Trace) -> RunRow {
+        match trace.outcome {
+            // what a panic leaves behind depends on how far it came: id and outcome alone count
+            Outcome::PlannerPanicked
+            | Outcome::PlannerCrashed
+            | Outcome::PlannerHung
+            | Outcome::PlannerProtocol => row::of_lost_run(encounter, trace.outcome),
+            _ => {
+                let digest = Digest::of_trace(trace);
+                let mut row = row::of_run(encounter, trace, digest, &self.judgement);
+                row.judges_disagree = self.disagreements.as_ref().map(|list| !list.is_empty());
+                row
+            }
+        }
+    }
+}
+
+/// The thresholds of the second judge, from the rule set of the first.
+///
+/// # Errors
+/// The rule set uses an option that no formula expresses.
+pub fn params(rules: &RuleSet) -> Result<stl::Params, Error> {
+    if rules.stand_on.may_act_early {
+        return Err(Error::input(format!(
+            "rule set {}: may_act_early = true has no formula; set run.second_judge = false",
+            rules.name
+        )));
+    }
+    let (stages, distance, m) = (&rules.stages, &rules.distance, &rules.manoeuvre);
+    let class = &rules.classification;
+    Ok(stl::Params {
+        risk_distance_m: rules.risk.d_risk_m,
+        risk_tcpa_s: rules.risk.t_risk_s,
+        risk_hold_s: rules.risk.persistence_s,
+        risk_close_factor: rules.risk.close_factor,
+        manoeuvring_yaw_rate_radps: rules.risk.held_above_yaw_rate_radps,
+        head_on_half_angle_rad: class.head_on_half_angle_rad,
+        head_on_reciprocal_rad: class.head_on_reciprocal_factor * class.head_on_half_angle_rad,
+        doubt_rad: class.doubt_rad,
+        stopped_mps: class.stopped_mps,
+        stage_range_m: [stages.r2_m, stages.r3_m, stages.r4_m],
+        stage_time_s: [stages.t2_s, stages.t3_s, stages.t4_s],
+        stage_clock: match stages.mode {
+            StageMode::Range => stl::StageClock::Range,
+            StageMode::Time => stl::StageClock::Time,
+        },
+        preferred_m: distance.r_pref_m,
+        minimum_m: distance.r_min_m,
+        near_miss_m: distance.r_nm_m,
+        turn_detectable_rad: m.detectable_turn_rad,
+        turn_action_rad: m.substantial_turn_rad,
+        turn_apparent_rad: m.apparent_turn_rad,
+        speed_detectable: m.detectable_speed_fraction,
+        speed_action: m.substantial_speed_fraction,
+        offset_hold_s: m.offset_held_s,
+        reference_s: m.baseline_s,
+        stand_on_mean_s: rules.stand_on.heading_mean_s,
+        may_act_hold_s: rules.stand_on.may_act_persistence_s,
+        shall_act_grace_s: rules.stand_on.shall_act_grace_s,
+        run: stl::RunParams {
+            smoothing_s: m.heading_sigma_s,
+            yaw_rate_on_radps: m.turn_rate_start_radps,
+            quiet_s: m.turn_quiet_s,
+            gap_s: m.turn_gap_s,
+            slow_s: m.slow_turn_s,
+            acceleration_mps2: m.speed_rate_mps2,
+            moving_mps: m.moving_mps,
+        },
+        attribution_lead_s: m.attribution_lead_s,
+        release_hold_s: rules.release.held_s,
+        release_overtaking_rad: rules.release.overtaker_ahead_rad,
+        release_abaft_rad: rules.release.abaft_rad,
+        release_range_factor: rules.release.beyond_r2_factor,
+        overtaken_bow_rad: OVERTAKEN_BOW_RAD,
+        port_turn_fails_in_stage_4: rules.stand_on.port_in_stage_4 == PortInExtremis::Fail,
+        scale: SCALES,
+    })
+}
+
+/// Section 8: closer than `r_min` with the overtaken ship's contact angle within 45 degrees.
+const OVERTAKEN_BOW_RAD: f64 = geom::units::deg(45.0);
+
+/// Section 12, after Torben et al. 2022: 100 m, 10 degrees; a quarter of the speed is ours. They
+/// scale the robustness and cannot change its sign.
+const SCALES: stl::Scales =
+    stl::Scales { distance_m: 100.0, angle_rad: geom::units::deg(10.0), speed: 0.25 };
+
+/// Where the sign of the robustness contradicts the status of the first judge.
+fn disagreements(first: &Judgement, second: &[Robustness]) -> Vec<Disagreement> {
+    second
+        .iter()
+        .filter_map(|said| {
+            let verdict = first
+                .verdicts
+                .iter()
+                .find(|v| v.check == said.check && v.target == Some(said.target))?;
+            (!agree(verdict, said.status)).then(|| Disagreement {
+                check: said.check,
+                target: said.target,
+                first: verdict.status,
+                detail: verdict.detail.to_string(),
+                second: said.status,
+                rho: said.rho,
+            })
+        })
+        .collect()
+}
+
+/// Section 12: negative where the first judge says FAIL, positive where it says PASS or WARN. A
+/// robustness of 0 lies on the boundary and contradicts nothing; what has no formula is not asked.
+/// Rule 19(e) has none either: a failure of it alone says nothing of 19(d)(i) and (ii). Where the
+/// first judge found a failure and then took it back, because another class was within the doubt or
+/// because own ship had acted before there was any risk, its detail code says so: no formula looks
+/// at that, so what was found first is compared.
+fn agree(verdict: &Verdict, finding: Finding) -> bool {
+    use Status::{Fail, Inconclusive, NotApplicable, NotEvaluated, Pass, Warn};
+    let only_19e = verdict.status == Fail && verdict.detail == "FAIL-19E";
+    let taken_back = verdict.status == Warn
+        && matches!(verdict.detail.as_ref(), "AMBIGUOUS" | "RESOLVED_EARLY" | "FORCED");
+    match finding {
+        Finding::NotEvaluated | Finding::Undecided => true,
+        Finding::Violated => (verdict.status == Fail && !only_19e) || taken_back,
+        Finding::Holds => matches!(verdict.status, Pass | Warn) || only_19e,
+        Finding::NotApplicable => matches!(verdict.status, NotApplicable | NotEvaluated),
+        Finding::Inconclusive => verdict.status == Inconclusive || only_19e,
+    }
+}
