@@ -74,7 +74,7 @@ fn folder_name(planner: &str) -> String {
     planner.chars().map(safe).collect()
 }
 
-fn threads(asked: Option<usize>) -> Result<usize, Error> {
+pub(super) fn threads(asked: Option<usize>) -> Result<usize, Error> {
     match asked {
         Some(0) => Err(Error::input("--threads 0 runs nothing; ask for at least 1")),
         Some(n) => Ok(n),

@@ -4,6 +4,10 @@ mod campaign;
 mod compare;
 mod engine;
 mod finish;
+mod gate;
+mod gate_git;
+mod gate_replay;
+mod gate_self_test;
 mod intervals;
 mod planners;
 mod replay;
@@ -23,18 +27,21 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),
+        Command::Gate(args) => gate::run(&args, registry),
+        Command::GateArm { threads } => gate::arm(threads, registry),
         Command::Engine { dir, threads, suspect } => {
             engine::run(&dir, threads, suspect.as_deref(), registry)
         }
     }
 }
 
-/// The registry with the planners from outside that are named `exec:...` or `lib:...`.
+/// The registry with the planners that are named `exec:...`, `lib:...` or `mutant:...`.
 fn with_outside(mut registry: Registry, names: &[String]) -> Result<Registry, Error> {
     for name in names {
         if let Some(entry) = planner_host::outside(name) {
             registry = registry.with(entry.map_err(|e| Error::input(e.to_string()))?);
         }
+        registry = ::gate::mutants::with_mutant(registry, name).map_err(Error::input)?;
     }
     Ok(registry)
 }
