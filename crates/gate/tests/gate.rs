@@ -4,10 +4,12 @@ use campaign::plan::Build;
 use campaign::worker::Shop;
 use campaign::{Error, Plan};
 use gate::arm::{Arm, ArmRow, InProcess, beats};
+use gate::child::Launch;
 use gate::self_test::SelfTest;
 use gate::spec::{GateSpec, PlannerSpec};
-use gate::{Event, mutants};
+use gate::{Child, Event, mutants};
 use planner_api::Registry;
+use record::Outcome;
 use stats::GateVerdict;
 
 const GATE: &str = include_str!("../../../campaigns/gate.toml");
@@ -139,5 +141,45 @@ fn the_built_in_gate_is_feasible_and_a_small_cap_is_refused_with_what_it_needs()
     assert!(refused.to_string().contains("needs a cap of"), "{refused}");
     for event in [Event::Collision, Event::PlannerFailure, Event::SafetyRadius, Event::Near] {
         assert!(spec.events().contains(&event), "{}", event.name());
+    }
+}
+
+/// An arm in a process of its own gives the rows that this process gives, and a planner that takes
+/// its process with it costs the encounters that it loses and no others.
+#[test]
+fn a_planner_that_takes_its_process_with_it_costs_its_own_rows_only() {
+    let program = std::env::current_exe().unwrap();
+    let program = program.parent().unwrap().parent().unwrap().join("examples").join("arm");
+    let launch = Launch { program, arguments: Vec::new(), threads: 2 };
+    let registry = planners::registry();
+    let spec = spec(210);
+    let ids: Vec<u64> = (0..210).collect();
+    let good = plan(&spec, &registry, "zhuang", 5);
+    let shop = Shop::new(&good, &registry).unwrap();
+    let counters = beats(2);
+    let here = InProcess::new(&shop, &good, &counters).unwrap().rows(&ids).unwrap();
+    let mut there = Child::start(launch.clone(), good.clone()).unwrap();
+    assert_eq!(there.rows(&ids).unwrap(), here);
+    for (name, outcome) in [
+        ("panics", Outcome::PlannerPanicked),
+        ("aborts", Outcome::PlannerCrashed),
+        ("spins", Outcome::PlannerHung),
+    ] {
+        let mut bad = plan(&spec, &registry, name, 5);
+        bad.run.planner_hang_limit_s = 0.5;
+        // enough that 210 encounters hold some
+        bad.planner.options.insert("share".into(), 0.03.into());
+        let mut arm = Child::start(launch.clone(), bad).unwrap();
+        let rows = arm.rows(&ids).unwrap();
+        let lost = rows.iter().filter(|row| row.outcome == outcome).count();
+        assert!(lost > 0 && lost < 20, "{name} lost {lost} of 210");
+        for (row, was) in rows.iter().zip(&here) {
+            assert_eq!(row.id, was.id);
+            if row.outcome == outcome {
+                assert!(row.unknown, "{name}: place {} must count against it", row.id);
+            } else {
+                assert_eq!(row, was, "{name} changed place {}", row.id);
+            }
+        }
     }
 }
