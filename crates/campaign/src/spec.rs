@@ -40,6 +40,8 @@ pub struct CampaignFile {
     /// Options of planners, by name.
     #[serde(default)]
     pub planner: BTreeMap<String, toml::Table>,
+    /// What the gate declares before it runs; the gate reads it, a campaign does not.
+    pub gate: Option<toml::Table>,
 }
 
 /// Clock, ends and limits of every run.

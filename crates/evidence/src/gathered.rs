@@ -20,6 +20,8 @@ pub struct Gathered {
     pub root_digest: String,
     /// What went wrong, clustered.
     pub findings: Findings,
+    /// Ids of the runs on which the judges disagree, as many as the summary lists.
+    pub disagreements: Vec<String>,
     /// The encounters that a report shows.
     pub cases: Cases,
     /// Rows.
@@ -66,6 +68,7 @@ impl Gathered {
         self.rows += 1;
         self.tallies.add(row);
         self.findings.offer(row);
+        summary::list_disagreement(&mut self.disagreements, row);
         self.cases.offer(row);
         self.claims.offer(row);
         let failed = row.checks.iter().any(|cell| cell.status == Status::Fail);

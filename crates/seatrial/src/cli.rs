@@ -130,6 +130,19 @@ pub(crate) enum Command {
     /// One task for each shard, with bounded retries, and a job that merges when all have ended.
     #[command(after_help = EXIT_CODES)]
     Slurm(SlurmArgs),
+    /// May this planner replace that one: pass (0), fail (1) or inconclusive (3)
+    ///
+    /// Runs both on the same fresh encounters, one after the other in id order, and stops as soon
+    /// as the answer is shown. The levels, margins and the cap stand in the campaign file.
+    #[command(after_help = EXIT_CODES)]
+    Gate(GateArgs),
+    /// The process that runs one planner for a gate; the gate starts it
+    #[command(hide = true)]
+    GateArm {
+        /// Worker threads
+        #[arg(long, default_value_t = 1)]
+        threads: usize,
+    },
     /// The engine process of a campaign; the supervisor starts it
     #[command(hide = true)]
     Engine {
@@ -158,6 +171,47 @@ pub(crate) struct JudgeArgs {
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
     /// No progress and no table
+pub(crate) struct GateArgs {
+    /// The planner of today: a name, git:REV, git:REV:NAME, exec:COMMAND or lib:FILE
+    #[arg(long, value_name = "PLANNER")]
+    pub(crate) baseline: Option<String>,
+    /// The planner that is to replace it: a name, exec:COMMAND or lib:FILE
+    #[arg(long, value_name = "PLANNER")]
+    pub(crate) candidate: Option<String>,
+    /// An option of the baseline, such as radius_factor=0.9; may be given several times
+    #[arg(long = "baseline-option", value_name = "KEY=VALUE")]
+    pub(crate) baseline_options: Vec<String>,
+    /// An option of the candidate; may be given several times
+    #[arg(long = "candidate-option", value_name = "KEY=VALUE")]
+    pub(crate) candidate_options: Vec<String>,
+    /// A campaign file with a table [gate], or the name of one that is built in
+    #[arg(long, value_name = "FILE|NAME", default_value = "gate")]
+    pub(crate) campaign: String,
+    /// The largest number of pairs, instead of the campaign's
+    #[arg(long, value_name = "N")]
+    pub(crate) cap: Option<u64>,
+    /// Name of the change series, whose attempts are counted [default: the git branch]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) series: Option<String>,
+    /// The folder of named encounters that must not be newly broken [default: tests/corpus]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) corpus: Option<PathBuf>,
+    /// The ledger of attempts [default: reports/gate-ledger.jsonl]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) ledger: Option<PathBuf>,
+    /// Worker threads [default: one for each processor]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// Output folder [default: reports/gate]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Run one encounter of the gate in --out again under both planners, and draw both
+    #[arg(long, value_name = "ENCOUNTER_ID", conflicts_with_all = ["baseline", "candidate"])]
+    pub(crate) replay: Option<String>,
+    /// Test the gate itself: a planner against itself, and planners that must fail
+    #[arg(long, conflicts_with_all = ["candidate", "replay"])]
+    pub(crate) self_test: bool,
+    /// No progress
     #[arg(long)]
     pub(crate) quiet: bool,
 }

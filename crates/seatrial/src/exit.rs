@@ -21,6 +21,8 @@ pub(crate) enum Ended {
     Done,
     /// A check that was asked for has failed.
     Failed,
+    /// Neither shown nor refuted.
+    Inconclusive,
 }
 
 /// The exit code of a command; an error is printed.
@@ -28,6 +30,7 @@ pub(crate) fn code(ended: Result<Ended, Error>) -> ExitCode {
     ExitCode::from(match ended {
         Ok(Ended::Done) => DONE,
         Ok(Ended::Failed) => FAILED,
+        Ok(Ended::Inconclusive) => INCOMPLETE,
         Err(error) => {
             eprintln!("seatrial: {error}");
             match error {

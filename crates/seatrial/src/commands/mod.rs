@@ -5,6 +5,10 @@ mod compare;
 mod engine;
 mod evidence;
 mod finish;
+mod gate;
+mod gate_git;
+mod gate_replay;
+mod gate_self_test;
 mod intervals;
 mod judge;
 mod planners;
@@ -43,18 +47,21 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Missing { dir, shards, of } => shards::missing(&dir, &shards, of),
         Command::Merge { dir, shards, quiet } => shards::merge(&dir, &shards, registry, quiet),
         Command::Slurm(args) => slurm::run(&args),
+        Command::Gate(args) => gate::run(&args, registry),
+        Command::GateArm { threads } => gate::arm(threads, registry),
         Command::Engine { dir, threads, suspect } => {
             engine::run(&dir, threads, suspect.as_deref(), registry)
         }
     }
 }
 
-/// The registry with the planners from outside that are named `exec:...` or `lib:...`.
+/// The registry with the planners that are named `exec:...`, `lib:...` or `mutant:...`.
 fn with_outside(mut registry: Registry, names: &[String]) -> Result<Registry, Error> {
     for name in names {
         if let Some(entry) = planner_host::outside(name) {
             registry = registry.with(entry.map_err(|e| Error::input(e.to_string()))?);
         }
+        registry = ::gate::mutants::with_mutant(registry, name).map_err(Error::input)?;
     }
     Ok(registry)
 }

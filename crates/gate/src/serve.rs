@@ -1,0 +1,183 @@
+//! The child's side of an arm: a process that runs one planner on the places it is asked for.
+//!
+//! It is a process of its own because a planner that hangs, aborts or overflows its stack takes
+//! its process with it, and because the planner of another commit lives in another binary.
+//! Standard input: one line with the plan as JSON, then a line for each request:
+//! places, or `case {question}` for a case of the corpus.
+//! Standard output, line by line: `hello {identity}`, `b PLACE` (begins), `r {row}` (ended), `e`
+//! (request done), `c [events]` (answer to a case), `x KIND message` (an error: `input` or `fault`).
+
+use crate::arm::{self, InProcess, Step};
+use crate::corpus::{self, Question};
+use crate::fresh;
+use campaign::plan::Build;
+use campaign::worker::Shop;
+use campaign::{Error, Plan, engine};
+use planner_api::Registry;
+use serde::{Deserialize, Serialize};
+use std::io::{BufRead, Write};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
+
+/// How often the watchdog looks.
+const WATCH_EVERY: Duration = Duration::from_millis(100);
+
+/// The three hashes that must agree before two builds may be compared, and the build.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Sources that decide a number, Cargo.lock and rustc.
+    pub engine: String,
+    /// The resolved tables that encounters are drawn from.
+    pub encounter_model: String,
+    /// The rule set.
+    pub rule_set: String,
+    /// Sources of the planners; may differ.
+    pub planners: String,
+    /// Commit of the sources.
+    pub git_commit: String,
+}
+
+impl Identity {
+    /// Of a plan in a build.
+    pub fn of(plan: &Plan, build: &Build) -> Result<Self, Error> {
+        Ok(Self {
+            engine: build.engine.clone(),
+            encounter_model: fresh::encounter_model(plan)?,
+            rule_set: plan.rules.hash.clone(),
+            planners: build.planners.clone(),
+            git_commit: build.git_commit.clone(),
+        })
+    }
+
+    /// Refuses to compare across builds whose numbers mean different things.
+    pub fn must_agree(&self, other: &Self, whose: &str) -> Result<(), Error> {
+        for (name, mine, theirs) in [
+            ("engine", &self.engine, &other.engine),
+            ("encounter_model", &self.encounter_model, &other.encounter_model),
+            ("rule_set", &self.rule_set, &other.rule_set),
+        ] {
+            if mine != theirs {
+                return Err(Error::input(format!(
+                    "{whose} has another `{name}` ({} there, {} here): the two cannot be compared; \
+                     take a baseline that was built with this {name}",
+                    short(theirs),
+                    short(mine)
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn short(hash: &str) -> &str {
+    hash.get(..12).unwrap_or(hash)
+}
+
+/// Serves requests until standard input ends. `registry` makes the planner that the plan names.
+pub fn serve(
+    threads: usize,
+    build: &Build,
+    registry: impl FnOnce(&str) -> Result<Registry, Error>,
+) -> Result<(), Error> {
+    let ended = answer(threads, build, registry);
+    if let Err(error) = &ended {
+        let (kind, message) = match error {
+            Error::Input(message) | Error::Incomplete(message) => ("input", message.clone()),
+            Error::Fault(message) => ("fault", message.clone()),
+            io @ Error::Io { .. } => ("fault", io.to_string()),
+        };
+        say(&format!("x {kind} {}", message.replace('\n', " ")));
+    }
+    ended
+}
+
+fn answer(
+    threads: usize,
+    build: &Build,
+    registry: impl FnOnce(&str) -> Result<Registry, Error>,
+) -> Result<(), Error> {
+    let mut lines = std::io::stdin().lock().lines();
+    let mut line = || lines.next().and_then(Result::ok);
+    let Some(first) = line() else { return Ok(()) };
+    let mut plan: Plan = serde_json::from_str(&first)
+        .map_err(|e| Error::input(format!("this build cannot read the plan: {e}")))?;
+    plan.build = build.clone();
+    let registry = registry(&plan.planner.name)?;
+    let shop = Shop::new(&plan, &registry)?;
+    let beats = arm::beats(threads);
+    let mut arm = InProcess::new(&shop, &plan, &beats)?;
+    let hello = serde_json::to_string(&Identity::of(&plan, build)?);
+    say(&format!("hello {}", hello.map_err(|e| Error::Fault(e.to_string()))?));
+    let limit_s = plan.run.planner_hang_limit_s;
+    let stop = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| watch(&beats, limit_s, &stop));
+        let mut ended = Ok(());
+        while let Some(request) = line() {
+            if let Some(question) = request.strip_prefix("case ") {
+                ended = case(question, &plan, &registry, &beats[0]);
+                if ended.is_err() {
+                    break;
+                }
+                continue;
+            }
+            let ids: Result<Vec<u64>, _> = request.split_whitespace().map(str::parse).collect();
+            ended = match ids {
+                Ok(ids) => arm.rows_telling(&ids, &tell).map(drop),
+                Err(_) => Err(Error::Fault(format!("`{request}` is no list of places"))),
+            };
+            if ended.is_err() {
+                break;
+            }
+            say("e");
+        }
+        stop.store(true, Ordering::Relaxed);
+        ended
+    })
+}
+
+/// One case of the corpus, with a planner made anew.
+fn case(json: &str, plan: &Plan, registry: &Registry, beat: &AtomicU64) -> Result<(), Error> {
+    let question: Question =
+        serde_json::from_str(json).map_err(|e| Error::input(format!("a case: {e}")))?;
+    let Question { encounter, rules, events } = question;
+    let mut planner = corpus::make(registry, &plan.planner.name, &plan.planner.options)?;
+    let had = corpus::events(&encounter, planner.as_mut(), &rules, &events, beat)?;
+    let had = serde_json::to_string(&had).map_err(|e| Error::Fault(e.to_string()))?;
+    say(&format!("c {had}"));
+    Ok(())
+}
+
+fn tell(step: Step<'_>) {
+    match step {
+        Step::Begins(id) => say(&format!("b {id}")),
+        Step::Ended(row) => match serde_json::to_string(row) {
+            Ok(row) => say(&format!("r {row}")),
+            Err(error) => say(&format!("x fault {error}")),
+        },
+    }
+}
+
+/// A parent that no longer listens is gone; standard input ends then.
+fn say(line: &str) {
+    let mut out = std::io::stdout().lock();
+    drop(writeln!(out, "{line}").and_then(|()| out.flush()));
+}
+
+/// Ends the process when a planner call lasts too long: a thread cannot be killed.
+fn watch(beats: &[AtomicU64], limit_s: f64, stop: &AtomicBool) {
+    let looks_max = (limit_s / WATCH_EVERY.as_secs_f64()).ceil() as u64;
+    let mut seen: Vec<(u64, u64)> = vec![(0, 0); beats.len()];
+    while !stop.load(Ordering::Relaxed) {
+        std::thread::sleep(WATCH_EVERY);
+        for (beat, (before, looks)) in beats.iter().zip(&mut seen) {
+            let now = beat.load(Ordering::Relaxed);
+            // odd while the planner thinks
+            *looks = if now % 2 == 1 && now == *before { *looks + 1 } else { 0 };
+            *before = now;
+            if *looks >= looks_max {
+                std::process::exit(i32::from(engine::EXIT_HUNG));
+            }
+        }
+    }
+}
