@@ -171,6 +171,11 @@ pub(crate) struct JudgeArgs {
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
     /// No progress and no table
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct GateArgs {
     /// The planner of today: a name, git:REV, git:REV:NAME, exec:COMMAND or lib:FILE
     #[arg(long, value_name = "PLANNER")]
