@@ -1,5 +1,6 @@
 //! One test binary, many modules: what no single crate can show.
 #![forbid(unsafe_code)]
+#![expect(clippy::unwrap_used, reason = "everything here is a test; a panic is its failure")]
 
 mod end_to_end;
 mod golden;

@@ -76,7 +76,7 @@ pub(crate) fn assert_same_result(a: &Path, b: &Path) {
 
 /// The rows of a result.
 pub(crate) fn rows(result: &Path) -> Vec<record::RunRow> {
-    table::read_rows(&result.join("runs.parquet"))
+    table::read_rows(result.join("runs.parquet"))
         .expect("a table")
         .map(|row| row.expect("a row"))
         .collect()

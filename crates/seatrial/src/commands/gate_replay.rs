@@ -44,7 +44,7 @@ pub(super) fn run(folder: &Path, id: &str, registry: Registry) -> Result<Ended, 
         let pictures = folder.join("replay");
         fs::create_dir_all(&pictures).map_err(Error::io("make", &pictures))?;
         let picture = pictures.join(format!("{}-{arm}.svg", id.file_stem()));
-        let case = super::finish::case(run);
+        let case = crate::rendering::case(&side.plan, run);
         report::draw_case(&picture, &case).map_err(|e| Error::Fault(format!("failed to {e}")))?;
         println!("  picture: {}", picture.display());
     }
