@@ -8,7 +8,7 @@
 use crate::Error;
 use crate::limits::either;
 use crate::placement::Placed;
-use crate::spec::{KINEMATIC, Model};
+use crate::spec::{KINEMATIC, Model, corners};
 use crate::target::{Made, Own, Request};
 use geom::{HullOutline, Vec2, unit};
 use record::{
@@ -101,7 +101,13 @@ impl Generator {
             weight: 1.0,
             own: self.own_ship(own, last_s),
             targets,
-            hazards: Vec::new(),
+            hazards: self
+                .model
+                .hazard
+                .iter()
+                .flatten()
+                .map(|polygon| corners(polygon, own.psi_rad))
+                .collect(),
             weather: Weather::default(),
             sensing: self.model.sensing.sensing(),
             visibility: Visibility::InSight,

@@ -9,7 +9,7 @@ use crate::limits::{Limits, ScaledLimits, positive, validate_either};
 use crate::wanted::Border;
 use crate::{Error, RunSettings};
 use geom::units::deg;
-use geom::{EncounterClass, HeadOnSector};
+use geom::{EncounterClass, HeadOnSector, Vec2};
 use record::Sensing;
 use serde::{Deserialize, Serialize};
 
@@ -25,8 +25,39 @@ pub struct Model {
     pub geometry: GeometrySpec,
     /// What own ship perceives.
     pub sensing: SensingSpec,
+    /// Land, piers and shoals: simple polygons, corners in metres ahead of own start and to
+    /// starboard of it, which is north and east where own course is north; absent: none.
+    pub hazard: Option<Vec<Polygon>>,
     /// What is asked for, in the order of reports.
     pub stratum: Vec<StratumSpec>,
+}
+
+/// Corners, two numbers each, metres.
+pub type Polygon = Vec<[f64; 2]>;
+
+/// Refuses what is no simple polygon; `key` is where the list stands.
+pub(crate) fn validate_hazards(key: &str, hazards: Option<&Vec<Polygon>>) -> Result<(), Error> {
+    let hazards = hazards.map_or(&[][..], Vec::as_slice);
+    require(
+        hazards.len() <= usize::from(u8::MAX),
+        || key.to_owned(),
+        || format!("has {} polygons; at most 255 can be told apart", hazards.len()),
+    )?;
+    for (i, polygon) in hazards.iter().enumerate() {
+        if let Some(fault) = geom::polygon::fault(&corners(polygon, 0.0)) {
+            return Err(Error::spec(format!("{key}.{}", i + 1), fault.to_string()));
+        }
+    }
+    Ok(())
+}
+
+/// The corners, turned by own course.
+pub(crate) fn corners(polygon: &[[f64; 2]], own_psi_rad: f64) -> Vec<Vec2> {
+    let place = |&[ahead_m, starboard_m]: &[f64; 2]| Vec2::new(ahead_m, starboard_m);
+    if own_psi_rad.abs() <= 0.0 {
+        return polygon.iter().map(place).collect();
+    }
+    polygon.iter().map(|corner| geom::angle::rotate(place(corner), own_psi_rad)).collect()
 }
 
 /// Name of the vessel that has limits instead of a parameter set.
@@ -183,6 +214,7 @@ impl Model {
         self.target.validate()?;
         self.geometry.validate(&self.own)?;
         self.sensing.validate("model.sensing")?;
+        validate_hazards("model.hazard", self.hazard.as_ref())?;
         self.validate_radius(run)?;
         require(
             !self.stratum.is_empty(),

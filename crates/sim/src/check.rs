@@ -1,9 +1,11 @@
 //! Whether an encounter can be run at all.
 
 use crate::approach::Approach;
+use crate::hazard::Hazards;
 use crate::interval::Hulls;
 use crate::ship::Ship;
 use crate::vessel::{known_models, limits};
+use geom::polygon::{self, PolygonFault};
 use geom::{HullOutline, Vec2};
 use record::{Encounter, Intent, Motion, Vessel, Waypoint};
 
@@ -58,9 +60,20 @@ pub enum SetupError {
         /// Name.
         planner: String,
     },
-    /// Hazards, which the world does not know yet.
-    #[error("there are {0} hazards; hazards are not wired")]
-    Hazards(usize),
+    /// More hazards than an index can name.
+    #[error("there are {0} hazards; at most 255 can be told apart")]
+    TooManyHazards(usize),
+    /// A hazard that is no simple polygon.
+    #[error("hazard {hazard}: {fault}")]
+    NoPolygon {
+        /// Index.
+        hazard: usize,
+        /// What is wrong with it.
+        fault: PolygonFault,
+    },
+    /// Own ship lies on a hazard at the start.
+    #[error("own ship touches hazard {0} at the start")]
+    Aground(usize),
 }
 
 /// Checks an encounter; [`crate::run`] gives `Outcome::Invalid` for what fails here.
@@ -72,8 +85,13 @@ pub fn check(encounter: &Encounter) -> Result<(), SetupError> {
     if targets.len() > usize::from(u8::MAX) {
         return Err(SetupError::TooManyTargets(targets.len()));
     }
-    if !hazards.is_empty() {
-        return Err(SetupError::Hazards(hazards.len()));
+    if hazards.len() > usize::from(u8::MAX) {
+        return Err(SetupError::TooManyHazards(hazards.len()));
+    }
+    for (hazard, corners) in hazards.iter().enumerate() {
+        if let Some(fault) = polygon::fault(corners) {
+            return Err(SetupError::NoPolygon { hazard, fault });
+        }
     }
     if own.route.is_empty() {
         return Err(SetupError::NoRoute);
@@ -167,6 +185,12 @@ fn check_apart(encounter: &Encounter) -> Result<(), SetupError> {
         let hulls = Hulls { own: &own.hull, target: &target.hull };
         if Approach::new(1.0, hulls, &own.pose, &target.pose).overlaps() {
             return Err(SetupError::Overlap(index));
+        }
+    }
+    for (index, corners) in encounter.hazards.iter().enumerate() {
+        let touches = Hazards::new(std::slice::from_ref(corners), &own).least_m() <= Some(0.0);
+        if touches || polygon::contains(corners, own.pose.position_m) {
+            return Err(SetupError::Aground(index));
         }
     }
     Ok(())

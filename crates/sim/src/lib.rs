@@ -8,6 +8,7 @@ pub mod approach;
 pub mod check;
 pub mod contact;
 pub mod ending;
+pub mod hazard;
 pub mod hull;
 pub mod intent;
 pub mod interval;

@@ -7,6 +7,7 @@ use crate::approach::Approach;
 use crate::check::check;
 use crate::contact::{Inertia, Party, collide};
 use crate::ending::{Ending, Other};
+use crate::hazard::{Hazards, Touch};
 use crate::intent::Script;
 use crate::interval::{Hulls, Interval};
 use crate::pose::Pose;
@@ -64,6 +65,7 @@ struct World<'a> {
     approaches: Vec<Approach>,
     sensors: Sensors,
     ending: Ending,
+    hazards: Hazards,
     own_track: ShipTrack,
     target_tracks: Vec<ShipTrack>,
     hull_m: Vec<Vec<f64>>,
@@ -134,6 +136,7 @@ impl<'a> World<'a> {
             approaches: approaches.collect(),
             sensors: Sensors::new(&encounter.sensing, targets.len()),
             ending: Ending::new(encounter, own.model.limits().yaw_rate_radps_max),
+            hazards: Hazards::new(&encounter.hazards, &own),
             own_track: recorder::track_of(&own, room),
             target_tracks: targets.iter().map(|t| recorder::track_of(t, room)).collect(),
             hull_m: targets.iter().map(|_| Vec::with_capacity(room)).collect(),
@@ -173,7 +176,11 @@ impl<'a> World<'a> {
             for _ in 0..steps_a_beat {
                 if let Some(contact) = self.step(step) {
                     self.contact = Some(contact);
-                    return (Outcome::Collision, contact.t_s);
+                    let outcome = match contact.with {
+                        ContactWith::Target(_) => Outcome::Collision,
+                        ContactWith::Hazard(_) => Outcome::Grounding,
+                    };
+                    return (outcome, contact.t_s);
                 }
                 step += 1;
             }
@@ -252,7 +259,28 @@ impl<'a> World<'a> {
                 first = Some((fraction, index));
             }
         }
-        first.map(|(fraction, index)| self.contact(start_s, dt_s, fraction, index))
+        let ashore = self.hazards.advance(&self.own, start_s, dt_s);
+        match (first, ashore) {
+            (Some((fraction, index)), None) => Some(self.contact(start_s, dt_s, fraction, index)),
+            (Some((fraction, index)), Some(touch)) if fraction <= touch.fraction => {
+                Some(self.contact(start_s, dt_s, fraction, index))
+            }
+            (_, Some(touch)) => Some(self.grounding(start_s, dt_s, &touch)),
+            (None, None) => None,
+        }
+    }
+
+    fn grounding(&self, start_s: f64, dt_s: f64, touch: &Touch) -> Contact {
+        let own = &self.own;
+        let pose = Pose::between(&own.before, &own.pose, dt_s, touch.fraction);
+        let impact = self.hazards.impact(touch, &own.hull, pose, inertia(own));
+        Contact {
+            t_s: start_s + touch.fraction * dt_s,
+            with: ContactWith::Hazard(touch.hazard),
+            impact_mps: impact.closing_mps,
+            impulse_ns: impact.impulse_ns,
+            energy_lost_j: impact.energy_lost_j,
+        }
     }
 
     fn contact(&self, start_s: f64, dt_s: f64, fraction: f64, index: usize) -> Contact {
@@ -288,6 +316,7 @@ impl<'a> World<'a> {
             own: self.own_track,
             targets: self.target_tracks,
             pairs,
+            hazard_m_min: self.hazards.least_m(),
             orders: self.orders,
             alerts: self.alerts,
             events,
