@@ -10,6 +10,7 @@ pub mod dnv;
 mod dnv_ship;
 pub mod error;
 pub mod geographic;
+pub mod intent;
 mod json;
 pub mod limits;
 pub mod nominal;

@@ -88,7 +88,8 @@ impl Generator {
         let (mut asked, mut last_s, mut rejected) = (None, 0.0, 0);
         let mut targets = Vec::with_capacity(1);
         for request in Request::all(&self.model, spec) {
-            let Made { target, placed } = request.make(own, &streams, &id)?;
+            let Made { target, placed } =
+                request.make(own, &streams, &id, self.run.limits.duration_s_max)?;
             let Placed { class, miss_m, tcpa_s, .. } = placed;
             asked = asked.or(Some(Asked { class, miss_m, tcpa_s }));
             last_s = tcpa_s.max(last_s);

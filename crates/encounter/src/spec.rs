@@ -5,6 +5,7 @@
 
 use crate::distribution::{Distribution, range};
 use crate::error::require;
+use crate::intent::{ConductSpec, IntentMix};
 use crate::limits::{Limits, ScaledLimits, positive, validate_either};
 use crate::wanted::Border;
 use crate::{Error, RunSettings};
@@ -91,8 +92,12 @@ pub struct TargetSpec {
     pub beam_per_length: Distribution,
     /// Speed, m/s; a stratum may have its own.
     pub speed_mps: Distribution,
-    /// What they mean to do.
+    /// What they mean to do, unless there is a mix.
     pub intent: IntentSpec,
+    /// Instead of `intent`: shares of intents; a stratum may have its own. Absent: `intent`.
+    pub intent_mix: Option<IntentMix>,
+    /// Numbers for the intents of a mix.
+    pub conduct: Option<ConductSpec>,
     /// Limits, the same for every target.
     pub limits: Option<Limits>,
     /// Limits by length, instead of `limits`.
@@ -188,6 +193,8 @@ pub struct StratumSpec {
     pub target_speed_mps: Option<Distribution>,
     /// Instead of the geometry's `relative_course_deg`.
     pub relative_course_deg: Option<Distribution>,
+    /// Instead of the target's `intent_mix`, for every target of this stratum.
+    pub intent_mix: Option<IntentMix>,
 }
 
 /// One more target of a stratum.
@@ -223,6 +230,10 @@ impl Model {
         )?;
         for (i, stratum) in self.stratum.iter().enumerate() {
             stratum.validate()?;
+            if let Some(mix) = &stratum.intent_mix {
+                let key = format!("model.stratum.{}.intent_mix", stratum.name);
+                mix.validate(&key, self.target.conduct.as_ref())?;
+            }
             require(
                 self.stratum[..i].iter().all(|other| other.name != stratum.name),
                 || format!("model.stratum.{}", stratum.name),
@@ -261,6 +272,12 @@ impl TargetSpec {
         self.speed_mps.validate_within("model.target.speed_mps", 0.0, SPEED_MPS_MAX)?;
         validate_either("model.target", self.limits.as_ref(), self.scaled_limits.as_ref())?;
         within_limit("model.target", &self.speed_mps, self.limits.as_ref())?;
+        if let Some(conduct) = &self.conduct {
+            conduct.validate()?;
+        }
+        if let Some(mix) = &self.intent_mix {
+            mix.validate("model.target.intent_mix", self.conduct.as_ref())?;
+        }
         if let IntentSpec::Alter(alter) = &self.intent {
             let key = |name: &str| format!("model.target.intent.alter.{name}");
             alter.before_cpa_s.validate_within(&key("before_cpa_s"), 0.0, f64::MAX)?;

@@ -17,8 +17,8 @@ pub mod verdict;
 pub use check::Check;
 pub use digest::{Digest, RootDigest};
 pub use encounter::{
-    Asked, DistanceKind, Encounter, Intent, Motion, OwnShip, RunLimits, RunUntil, Sensing, Target,
-    Vessel, Visibility, Waypoint, Weather,
+    Asked, Conduct, DistanceKind, Encounter, Intent, Manner, Motion, OwnShip, RunLimits, RunUntil,
+    Sensing, Target, Turn, Vessel, Visibility, Waypoint, Weather,
 };
 pub use geom::EncounterClass;
 pub use id::EncounterId;

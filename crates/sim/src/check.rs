@@ -7,7 +7,7 @@ use crate::ship::Ship;
 use crate::vessel::{known_models, limits};
 use geom::polygon::{self, PolygonFault};
 use geom::{HullOutline, Vec2};
-use record::{Encounter, Intent, Motion, Vessel, Waypoint};
+use record::{Encounter, Intent, Motion, Turn, Vessel, Waypoint};
 
 /// What is wrong with an encounter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -52,13 +52,13 @@ pub enum SetupError {
     /// Hulls overlap at the start.
     #[error("own ship and target {0} overlap at the start")]
     Overlap(usize),
-    /// A target that should run a planner, which this build of the world cannot give it.
-    #[error("target {target} runs the planner `{planner}`; targets under a planner are not wired")]
-    PlannerTarget {
-        /// Index.
+    /// Turns that are not in the order of time.
+    #[error("turn {turn} of target {target} comes before the one before it")]
+    TurnsOutOfOrder {
+        /// Index of the target.
         target: usize,
-        /// Name.
-        planner: String,
+        /// Index of the turn.
+        turn: usize,
     },
     /// More hazards than an index can name.
     #[error("there are {0} hazards; at most 255 can be told apart")]
@@ -158,9 +158,24 @@ fn check_intent(index: usize, name: &str, intent: &Intent) -> Result<(), SetupEr
             finite(&format!("the alteration of {name}"), Vec2::new(*at_s, *course_rad))?;
             not_negative(&format!("the new speed of {name}"), *speed_mps)
         }
-        Intent::Planner(planner) => {
-            Err(SetupError::PlannerTarget { target: index, planner: planner.clone() })
+        Intent::Turns(turns) => check_turns(index, name, turns),
+        Intent::Duty(conduct) => {
+            positive(&format!("the time to act of {name}"), conduct.act_tcpa_s)?;
+            positive(&format!("the distance of risk of {name}"), conduct.risk_dcpa_m)?;
+            positive(&format!("the alteration of {name}"), conduct.course_change_rad)
         }
+        // whether there is a planner of this name is for the registry to say
+        Intent::Planner(_) => Ok(()),
+    }
+}
+
+fn check_turns(target: usize, name: &str, turns: &[Turn]) -> Result<(), SetupError> {
+    for turn in turns {
+        finite(&format!("a turn of {name}"), Vec2::new(turn.at_s, turn.course_rad))?;
+    }
+    match turns.windows(2).position(|pair| pair[1].at_s < pair[0].at_s) {
+        Some(before) => Err(SetupError::TurnsOutOfOrder { target, turn: before + 1 }),
+        None => Ok(()),
     }
 }
 

@@ -58,7 +58,7 @@ impl Sensors {
     }
 }
 
-fn track_of(index: usize, target: &Ship, age_s: f64) -> TargetTrack {
+pub(crate) fn track_of(index: usize, target: &Ship, age_s: f64) -> TargetTrack {
     let velocity_mps = target.pose.velocity_mps;
     let stopped = velocity_mps.norm_squared() < STOPPED_MPS2;
     TargetTrack {

@@ -10,6 +10,7 @@ use crate::ending::{Ending, Other};
 use crate::hazard::{Hazards, Touch};
 use crate::intent::Script;
 use crate::interval::{Hulls, Interval};
+use crate::peer::{MakePeer, Peer};
 use crate::pose::Pose;
 use crate::recorder;
 use crate::sensing::{Sensors, own_state};
@@ -19,7 +20,7 @@ use planner_api::{
     CommandError, FailureKind, Mission, Planner, PlannerFailure, Situation, TargetTrack,
 };
 use record::{
-    Alert, Contact, ContactWith, Encounter, Order, Outcome, Pair, PlannerEvents, Purpose,
+    Alert, Contact, ContactWith, Encounter, Intent, Order, Outcome, Pair, PlannerEvents, Purpose,
     ShipTrack, Streams, Trace, Visibility,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -37,10 +38,23 @@ pub struct Scratch {
 /// another thread can see a call that does not return. A planner's panic is caught and becomes
 /// the outcome; the caller may install a panic hook to keep it quiet. An encounter that
 /// [`check`] refuses gives `Outcome::Invalid` without samples. `nominal` and `last_minute` are
-/// left empty.
+/// left empty. Targets under a planner need [`run_among`]; here they make the encounter invalid.
 pub fn run(
     encounter: &Encounter,
     planner: &mut dyn Planner,
+    scratch: &mut Scratch,
+    beat: &AtomicU64,
+) -> Trace {
+    run_among(encounter, planner, &mut |_| None, scratch, beat)
+}
+
+/// As [`run`], and `peers` makes the planners of targets. An encounter whose peer is not known,
+/// panics or orders nonsense is `Outcome::Invalid` from then on: that is no fault of the planner
+/// under test in its own place.
+pub fn run_among(
+    encounter: &Encounter,
+    planner: &mut dyn Planner,
+    peers: &mut MakePeer<'_>,
     scratch: &mut Scratch,
     beat: &AtomicU64,
 ) -> Trace {
@@ -48,6 +62,9 @@ pub fn run(
         return invalid(encounter);
     }
     let mut world = World::new(encounter);
+    if !world.board_peers(peers) {
+        return invalid(encounter);
+    }
     let mut pilot = Pilot { planner, beat, mission: mission(encounter, &world.own) };
     let (outcome, end_s) = world.sail(&mut pilot, scratch);
     world.into_trace(outcome, end_s, pilot.events())
@@ -61,6 +78,8 @@ struct World<'a> {
     encounter: &'a Encounter,
     own: Ship,
     targets: Vec<Ship>,
+    /// Targets under a planner, with their indices.
+    peers: Vec<(usize, Peer)>,
     scripts: Vec<Script>,
     approaches: Vec<Approach>,
     sensors: Sensors,
@@ -119,10 +138,11 @@ impl<'a> World<'a> {
         let own = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
         let targets: Vec<Ship> =
             encounter.targets.iter().map(|t| ship(t.hull, &t.vessel, &t.start)).collect();
-        let scripts = encounter.targets.iter().zip(&targets).map(|(target, ship)| {
-            Script::of(&target.intent, ship, target.start.speed_mps)
-                .expect("the encounter was checked: no target runs a planner")
-        });
+        let scripts = encounter
+            .targets
+            .iter()
+            .zip(&targets)
+            .map(|(target, ship)| Script::of(&target.intent, ship, target.start.speed_mps));
         let near_m = NEAR_M_MIN.max(2.0 * encounter.safety_radius_m);
         let approaches = targets.iter().map(|target| {
             let hulls = Hulls { own: &own.hull, target: &target.hull };
@@ -133,6 +153,7 @@ impl<'a> World<'a> {
         Self {
             encounter,
             scripts: scripts.collect(),
+            peers: Vec::new(),
             approaches: approaches.collect(),
             sensors: Sensors::new(&encounter.sensing, targets.len()),
             ending: Ending::new(encounter, own.model.limits().yaw_rate_radps_max),
@@ -146,6 +167,38 @@ impl<'a> World<'a> {
             own,
             targets,
         }
+    }
+
+    /// Puts the planners of targets on board; whether all of them are there and ready.
+    fn board_peers(&mut self, make: &mut MakePeer<'_>) -> bool {
+        for (index, target) in self.encounter.targets.iter().enumerate() {
+            let Intent::Planner(name) = &target.intent else { continue };
+            let Some(planner) = make(name) else { return false };
+            let mut peer = Peer::new(planner, self.encounter, index, &self.targets[index]);
+            if catch_unwind(AssertUnwindSafe(|| peer.reset())).is_err() {
+                return false;
+            }
+            self.peers.push((index, peer));
+        }
+        true
+    }
+
+    /// Orders of the targets for this beat; whether every one could be carried out.
+    fn steer_targets(&mut self, t_s: f64, beat: &AtomicU64) -> bool {
+        for (script, target) in self.scripts.iter_mut().zip(&mut self.targets) {
+            script.steer(target, t_s, Some(&self.own.pose));
+        }
+        // an order moves nobody before all have theirs
+        for (index, peer) in &mut self.peers {
+            let (own, targets) = (&self.own, &self.targets);
+            beat.fetch_add(1, Ordering::Relaxed);
+            let plan = AssertUnwindSafe(|| peer.plan(t_s, *index, own, targets));
+            let helm = catch_unwind(plan).ok().flatten();
+            beat.fetch_add(1, Ordering::Relaxed);
+            let Some(helm) = helm else { return false };
+            self.targets[*index].steer(helm, t_s);
+        }
+        true
     }
 
     /// Beats until the end: how the run ended and when (seconds).
@@ -170,8 +223,8 @@ impl<'a> World<'a> {
                 Ok(helm) => self.own.steer(helm, t_s),
                 Err(outcome) => return (outcome, t_s),
             }
-            for (script, target) in self.scripts.iter_mut().zip(&mut self.targets) {
-                script.steer(target, t_s);
+            if !self.steer_targets(t_s, pilot.beat) {
+                return (Outcome::Invalid, t_s);
             }
             for _ in 0..steps_a_beat {
                 if let Some(contact) = self.step(step) {
