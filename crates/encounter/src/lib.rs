@@ -16,6 +16,7 @@ pub mod limits;
 pub mod nominal;
 pub mod placement;
 pub mod sample;
+pub mod sensing;
 pub mod situation;
 pub mod spec;
 mod target;

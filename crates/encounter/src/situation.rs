@@ -8,9 +8,8 @@
 use crate::error::require;
 use crate::limits::{Limits, ScaledLimits, either, positive, validate_either};
 use crate::sample::own_vessel;
-use crate::spec::{
-    Polygon, SensingSpec, corners, validate_hazards, validate_hull, validate_vessel,
-};
+use crate::sensing::SensingSpec;
+use crate::spec::{Polygon, corners, validate_hazards, validate_hull, validate_vessel};
 use crate::{Error, RunSettings};
 use geom::units::{NAUTICAL_MILE_M, deg, knots};
 use geom::{HullOutline, Vec2, wrap};

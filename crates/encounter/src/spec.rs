@@ -7,11 +7,11 @@ use crate::distribution::{Distribution, range};
 use crate::error::require;
 use crate::intent::{ConductSpec, IntentMix};
 use crate::limits::{Limits, ScaledLimits, positive, validate_either};
+use crate::sensing::SensingSpec;
 use crate::wanted::Border;
 use crate::{Error, RunSettings};
 use geom::units::deg;
 use geom::{EncounterClass, HeadOnSector, Vec2};
-use record::Sensing;
 use serde::{Deserialize, Serialize};
 
 /// Random encounters.
@@ -155,24 +155,6 @@ pub struct GeometrySpec {
     /// Largest departure from reciprocal headings in a head-on encounter, degrees; twice the
     /// half-angle adds no condition.
     pub head_on_reciprocal_deg: f64,
-}
-
-/// What own ship perceives.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SensingSpec {
-    /// Which world.
-    pub kind: SensingKind,
-    /// Range between reference points within which ships are seen, metres; absent: no limit.
-    pub detection_range_m: Option<f64>,
-}
-
-/// Kinds of sensing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SensingKind {
-    /// The truth about every ship in range.
-    Perfect,
 }
 
 /// One stratum: a class, or the border between two.
@@ -325,20 +307,6 @@ impl GeometrySpec {
         positive(TABLE, "goal_extra_s", self.goal_extra_s)?;
         angle(&key("head_on_half_angle_deg"), self.head_on_half_angle_deg, 60.0)?;
         angle(&key("head_on_reciprocal_deg"), self.head_on_reciprocal_deg, 120.0)
-    }
-}
-
-impl SensingSpec {
-    /// As the simulator takes it.
-    pub fn sensing(&self) -> Sensing {
-        match self.kind {
-            SensingKind::Perfect => Sensing::Perfect { detection_range_m: self.detection_range_m },
-        }
-    }
-
-    pub(crate) fn validate(&self, table: &str) -> Result<(), Error> {
-        self.detection_range_m
-            .map_or(Ok(()), |range_m| positive(table, "detection_range_m", range_m))
     }
 }
 

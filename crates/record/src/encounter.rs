@@ -2,7 +2,7 @@
 //!
 //! Made by `encounter`, read by `sim`. All positions are metres north and east of a local origin.
 
-use crate::{EncounterId, Seed};
+use crate::{EncounterId, Seed, Sensing};
 use geom::{EncounterClass, HullOutline, Vec2};
 use serde::{Deserialize, Serialize};
 
@@ -196,17 +196,6 @@ pub enum Manner {
     Neglects,
     /// Turns to port, whatever her duty.
     WrongWay,
-}
-
-/// What own ship's planner can perceive.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Sensing {
-    /// The truth about every ship within `detection_range_m` (absent: all of them).
-    Perfect {
-        /// Metres between the reference points.
-        detection_range_m: Option<f64>,
-    },
 }
 
 /// Current, wind and waves.

@@ -155,7 +155,7 @@ impl<'a> World<'a> {
             scripts: scripts.collect(),
             peers: Vec::new(),
             approaches: approaches.collect(),
-            sensors: Sensors::new(&encounter.sensing, targets.len()),
+            sensors: Sensors::new(encounter, &targets),
             ending: Ending::new(encounter, own.model.limits().yaw_rate_radps_max),
             hazards: Hazards::new(&encounter.hazards, &own),
             own_track: recorder::track_of(&own, room),
@@ -282,11 +282,10 @@ impl<'a> World<'a> {
             })?;
         self.orders.push(Order { course_rad, speed_mps });
         // an alert about a track that does not exist declares nothing
-        let known = command.alerts.into_iter().filter(|a| tracks.iter().any(|t| t.id == a.track));
-        self.alerts.extend(known.map(|alert| Alert {
-            t_s,
-            target: alert.track as u8,
-            rule: alert.rule,
+        let sensors = &self.sensors;
+        self.alerts.extend(command.alerts.into_iter().filter_map(|alert| {
+            let target = sensors.target_of(alert.track, tracks)?;
+            Some(Alert { t_s, target, rule: alert.rule })
         }));
         Ok(Helm::over_ground(course_rad, speed_mps, self.own.current_mps()))
     }
@@ -360,8 +359,8 @@ impl<'a> World<'a> {
             let (own, other) = (&self.own_track, &self.target_tracks[index]);
             let poses = |k: usize| [recorder::pose(own, k), recorder::pose(other, k)];
             let minimum = self.approaches[index].settle(&hull_m, hulls, poses, sample_s);
-            let seen_s = self.sensors.first_s(index);
-            pairs.push(Pair { hull_m, minimum, detected_s: seen_s, tracked_s: seen_s });
+            let (detected_s, tracked_s) = self.sensors.first_s(index);
+            pairs.push(Pair { hull_m, minimum, detected_s, tracked_s });
         }
         Trace {
             outcome,
