@@ -14,6 +14,7 @@ use std::sync::atomic::AtomicU64;
 #[derive(Debug)]
 pub struct Shop<'a> {
     plan: &'a Plan,
+    registry: &'a Registry,
     entry: &'a PlannerEntry,
     source: EncounterSource,
     rules: BTreeMap<String, rules::RuleSet>,
@@ -24,6 +25,7 @@ impl<'a> Shop<'a> {
     pub fn new(plan: &'a Plan, registry: &'a Registry) -> Result<Self, Error> {
         Ok(Self {
             plan,
+            registry,
             entry: registry.get(&plan.planner.name).map_err(|e| Error::input(e.to_string()))?,
             source: plan.encounters_source()?,
             rules: plan.rules.rule_sets()?,
@@ -34,6 +36,13 @@ impl<'a> Shop<'a> {
     pub fn draw(&self, stratum: u32, j: u64) -> Result<(Encounter, u64), Error> {
         let drawn = self.source.draw(stratum, j)?;
         Ok((drawn.encounter, drawn.rejected))
+    }
+
+    /// The planner of a target: the one under test with its options, any other with its own.
+    fn peer(&self, name: &str) -> Option<Box<dyn Planner>> {
+        let entry = self.registry.get(name).ok()?;
+        let own = entry.name == self.entry.name;
+        (entry.make)(if own { &self.plan.planner.options } else { &entry.options }).ok()
     }
 
     fn planner(&self) -> Result<Box<dyn Planner>, Error> {
@@ -116,7 +125,9 @@ impl<'a> Worker<'a> {
         rejected: u64,
         beat: &AtomicU64,
     ) -> Result<Run, Error> {
-        let mut trace = sim::run(&encounter, self.planner.as_mut(), &mut self.scratch, beat);
+        let peers = &mut |name: &str| self.shop.peer(name);
+        let (planner, scratch) = (self.planner.as_mut(), &mut self.scratch);
+        let mut trace = sim::run_among(&encounter, planner, peers, scratch, beat);
         trace.nominal = sim::nominal(&encounter);
         if trace.outcome.is_planner_failure() {
             self.planner = self.shop.planner()?;

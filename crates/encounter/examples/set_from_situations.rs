@@ -4,7 +4,7 @@
 //! Names count the files in the order of their names; the words of a title, one for each target,
 //! become the targets' labels.
 
-use encounter::spec::{SensingKind, SensingSpec};
+use encounter::sensing::{SensingKind, SensingSpec};
 use encounter::{RunSettings, ScaledLimits, SituationSettings, read_situations};
 use geom::units::{to_deg, to_knots};
 use record::{DistanceKind, Motion, RunLimits, RunUntil};
@@ -66,7 +66,13 @@ fn how() -> SituationSettings {
             acceleration_mps2_max: 0.5,
             speed_max_per_planned: 1.25,
         },
-        sensing: SensingSpec { kind: SensingKind::Perfect, detection_range_m: None },
+        sensing: SensingSpec {
+            kind: SensingKind::Perfect,
+            detection_range_m: None,
+            ais: None,
+            radar: None,
+            tracker: None,
+        },
     }
 }
 

@@ -22,7 +22,7 @@ use crate::geographic::TangentPlane;
 use crate::json::{Node, Wrong};
 use crate::limits::{ScaledLimits, positive};
 use crate::nominal::last_cpa_s;
-use crate::spec::SensingSpec;
+use crate::sensing::SensingSpec;
 use crate::{Error, RunSettings};
 use geom::units::{NAUTICAL_MILE_M, deg};
 use record::{Encounter, EncounterId, RunLimits, Seed, Visibility, Weather};

@@ -8,7 +8,7 @@
 use crate::Error;
 use crate::limits::either;
 use crate::placement::Placed;
-use crate::spec::{KINEMATIC, Model};
+use crate::spec::{KINEMATIC, Model, corners};
 use crate::target::{Made, Own, Request};
 use geom::{HullOutline, Vec2, unit};
 use record::{
@@ -88,7 +88,8 @@ impl Generator {
         let (mut asked, mut last_s, mut rejected) = (None, 0.0, 0);
         let mut targets = Vec::with_capacity(1);
         for request in Request::all(&self.model, spec) {
-            let Made { target, placed } = request.make(own, &streams, &id)?;
+            let Made { target, placed } =
+                request.make(own, &streams, &id, self.run.limits.duration_s_max)?;
             let Placed { class, miss_m, tcpa_s, .. } = placed;
             asked = asked.or(Some(Asked { class, miss_m, tcpa_s }));
             last_s = tcpa_s.max(last_s);
@@ -101,7 +102,13 @@ impl Generator {
             weight: 1.0,
             own: self.own_ship(own, last_s),
             targets,
-            hazards: Vec::new(),
+            hazards: self
+                .model
+                .hazard
+                .iter()
+                .flatten()
+                .map(|polygon| corners(polygon, own.psi_rad))
+                .collect(),
             weather: Weather::default(),
             sensing: self.model.sensing.sensing(),
             visibility: Visibility::InSight,

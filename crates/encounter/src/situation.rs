@@ -8,7 +8,8 @@
 use crate::error::require;
 use crate::limits::{Limits, ScaledLimits, either, positive, validate_either};
 use crate::sample::own_vessel;
-use crate::spec::{SensingSpec, validate_hull, validate_vessel};
+use crate::sensing::SensingSpec;
+use crate::spec::{Polygon, corners, validate_hazards, validate_hull, validate_vessel};
 use crate::{Error, RunSettings};
 use geom::units::{NAUTICAL_MILE_M, deg, knots};
 use geom::{HullOutline, Vec2, wrap};
@@ -97,6 +98,8 @@ pub struct Situation {
     pub goal: Place,
     /// The targets at the start, at least one.
     pub targets: Vec<TargetAt>,
+    /// Land, piers and shoals: simple polygons, corners in metres north and east; absent: none.
+    pub hazard: Option<Vec<Polygon>>,
     /// Instead of the run's safety radius, metres.
     pub safety_radius_m: Option<f64>,
     /// Instead of the detection range of `[set.sensing]`, metres.
@@ -276,6 +279,7 @@ impl Situation {
         let detection_range_m = self.detection_range_m.or(set.sensing.detection_range_m);
         let sensing = SensingSpec { detection_range_m, ..set.sensing };
         sensing.validate(&table)?;
+        validate_hazards(&format!("{table}.hazard"), self.hazard.as_ref())?;
         Ok(Encounter {
             id: EncounterId::new(self.name.as_str(), 0),
             seed: Seed(0),
@@ -290,7 +294,7 @@ impl Situation {
                 cruise_mps: start.speed_mps,
             },
             targets: self.targets(set, units, &run)?,
-            hazards: Vec::new(),
+            hazards: self.hazard.iter().flatten().map(|p| corners(p, 0.0)).collect(),
             weather: Weather::default(),
             sensing: sensing.sensing(),
             visibility: Visibility::InSight,

@@ -5,12 +5,13 @@
 
 use crate::distribution::{Distribution, range};
 use crate::error::require;
+use crate::intent::{ConductSpec, IntentMix};
 use crate::limits::{Limits, ScaledLimits, positive, validate_either};
+use crate::sensing::SensingSpec;
 use crate::wanted::Border;
 use crate::{Error, RunSettings};
 use geom::units::deg;
-use geom::{EncounterClass, HeadOnSector};
-use record::Sensing;
+use geom::{EncounterClass, HeadOnSector, Vec2};
 use serde::{Deserialize, Serialize};
 
 /// Random encounters.
@@ -25,8 +26,39 @@ pub struct Model {
     pub geometry: GeometrySpec,
     /// What own ship perceives.
     pub sensing: SensingSpec,
+    /// Land, piers and shoals: simple polygons, corners in metres ahead of own start and to
+    /// starboard of it, which is north and east where own course is north; absent: none.
+    pub hazard: Option<Vec<Polygon>>,
     /// What is asked for, in the order of reports.
     pub stratum: Vec<StratumSpec>,
+}
+
+/// Corners, two numbers each, metres.
+pub type Polygon = Vec<[f64; 2]>;
+
+/// Refuses what is no simple polygon; `key` is where the list stands.
+pub(crate) fn validate_hazards(key: &str, hazards: Option<&Vec<Polygon>>) -> Result<(), Error> {
+    let hazards = hazards.map_or(&[][..], Vec::as_slice);
+    require(
+        hazards.len() <= usize::from(u8::MAX),
+        || key.to_owned(),
+        || format!("has {} polygons; at most 255 can be told apart", hazards.len()),
+    )?;
+    for (i, polygon) in hazards.iter().enumerate() {
+        if let Some(fault) = geom::polygon::fault(&corners(polygon, 0.0)) {
+            return Err(Error::spec(format!("{key}.{}", i + 1), fault.to_string()));
+        }
+    }
+    Ok(())
+}
+
+/// The corners, turned by own course.
+pub(crate) fn corners(polygon: &[[f64; 2]], own_psi_rad: f64) -> Vec<Vec2> {
+    let place = |&[ahead_m, starboard_m]: &[f64; 2]| Vec2::new(ahead_m, starboard_m);
+    if own_psi_rad.abs() <= 0.0 {
+        return polygon.iter().map(place).collect();
+    }
+    polygon.iter().map(|corner| geom::angle::rotate(place(corner), own_psi_rad)).collect()
 }
 
 /// Name of the vessel that has limits instead of a parameter set.
@@ -60,8 +92,12 @@ pub struct TargetSpec {
     pub beam_per_length: Distribution,
     /// Speed, m/s; a stratum may have its own.
     pub speed_mps: Distribution,
-    /// What they mean to do.
+    /// What they mean to do, unless there is a mix.
     pub intent: IntentSpec,
+    /// Instead of `intent`: shares of intents; a stratum may have its own. Absent: `intent`.
+    pub intent_mix: Option<IntentMix>,
+    /// Numbers for the intents of a mix.
+    pub conduct: Option<ConductSpec>,
     /// Limits, the same for every target.
     pub limits: Option<Limits>,
     /// Limits by length, instead of `limits`.
@@ -121,24 +157,6 @@ pub struct GeometrySpec {
     pub head_on_reciprocal_deg: f64,
 }
 
-/// What own ship perceives.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SensingSpec {
-    /// Which world.
-    pub kind: SensingKind,
-    /// Range between reference points within which ships are seen, metres; absent: no limit.
-    pub detection_range_m: Option<f64>,
-}
-
-/// Kinds of sensing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SensingKind {
-    /// The truth about every ship in range.
-    Perfect,
-}
-
 /// One stratum: a class, or the border between two.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -157,6 +175,8 @@ pub struct StratumSpec {
     pub target_speed_mps: Option<Distribution>,
     /// Instead of the geometry's `relative_course_deg`.
     pub relative_course_deg: Option<Distribution>,
+    /// Instead of the target's `intent_mix`, for every target of this stratum.
+    pub intent_mix: Option<IntentMix>,
 }
 
 /// One more target of a stratum.
@@ -183,6 +203,7 @@ impl Model {
         self.target.validate()?;
         self.geometry.validate(&self.own)?;
         self.sensing.validate("model.sensing")?;
+        validate_hazards("model.hazard", self.hazard.as_ref())?;
         self.validate_radius(run)?;
         require(
             !self.stratum.is_empty(),
@@ -191,6 +212,10 @@ impl Model {
         )?;
         for (i, stratum) in self.stratum.iter().enumerate() {
             stratum.validate()?;
+            if let Some(mix) = &stratum.intent_mix {
+                let key = format!("model.stratum.{}.intent_mix", stratum.name);
+                mix.validate(&key, self.target.conduct.as_ref())?;
+            }
             require(
                 self.stratum[..i].iter().all(|other| other.name != stratum.name),
                 || format!("model.stratum.{}", stratum.name),
@@ -229,6 +254,12 @@ impl TargetSpec {
         self.speed_mps.validate_within("model.target.speed_mps", 0.0, SPEED_MPS_MAX)?;
         validate_either("model.target", self.limits.as_ref(), self.scaled_limits.as_ref())?;
         within_limit("model.target", &self.speed_mps, self.limits.as_ref())?;
+        if let Some(conduct) = &self.conduct {
+            conduct.validate()?;
+        }
+        if let Some(mix) = &self.intent_mix {
+            mix.validate("model.target.intent_mix", self.conduct.as_ref())?;
+        }
         if let IntentSpec::Alter(alter) = &self.intent {
             let key = |name: &str| format!("model.target.intent.alter.{name}");
             alter.before_cpa_s.validate_within(&key("before_cpa_s"), 0.0, f64::MAX)?;
@@ -276,20 +307,6 @@ impl GeometrySpec {
         positive(TABLE, "goal_extra_s", self.goal_extra_s)?;
         angle(&key("head_on_half_angle_deg"), self.head_on_half_angle_deg, 60.0)?;
         angle(&key("head_on_reciprocal_deg"), self.head_on_reciprocal_deg, 120.0)
-    }
-}
-
-impl SensingSpec {
-    /// As the simulator takes it.
-    pub fn sensing(&self) -> Sensing {
-        match self.kind {
-            SensingKind::Perfect => Sensing::Perfect { detection_range_m: self.detection_range_m },
-        }
-    }
-
-    pub(crate) fn validate(&self, table: &str) -> Result<(), Error> {
-        self.detection_range_m
-            .map_or(Ok(()), |range_m| positive(table, "detection_range_m", range_m))
     }
 }
 

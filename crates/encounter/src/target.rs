@@ -1,5 +1,6 @@
 //! One target of a stratum: its draws in their order, and the words when it cannot be placed.
 
+use crate::intent::Minded;
 use crate::limits::either;
 use crate::placement::{Given, Laws, Passing, Placed, Refusals, TRIES_MAX, place};
 use crate::spec::{IntentSpec, Model, StratumSpec};
@@ -61,7 +62,13 @@ impl<'a> Request<'a> {
     }
 
     /// Draws the target of one encounter.
-    pub(crate) fn make(self, own: Own, streams: &Streams, id: &EncounterId) -> Result<Made, Error> {
+    pub(crate) fn make(
+        self,
+        own: Own,
+        streams: &Streams,
+        id: &EncounterId,
+        duration_s_max: f64,
+    ) -> Result<Made, Error> {
         let model = self.model;
         let mut stream = streams.stream(Purpose::Geometry, self.number);
         let length_m = model.target.length_m.draw(&mut stream);
@@ -86,7 +93,7 @@ impl<'a> Request<'a> {
                 psi_rad: placed.psi_rad,
                 speed_mps: placed.speed_mps,
             },
-            intent: self.intent(&placed, streams),
+            intent: self.intent(&placed, streams, duration_s_max),
         };
         Ok(Made { target, placed })
     }
@@ -129,7 +136,14 @@ impl<'a> Request<'a> {
         }
     }
 
-    fn intent(&self, placed: &Placed, streams: &Streams) -> Intent {
+    fn intent(&self, placed: &Placed, streams: &Streams, duration_s_max: f64) -> Intent {
+        let spec = &self.model.target;
+        let mix = self.stratum.intent_mix.as_ref().or(spec.intent_mix.as_ref());
+        if let (Some(mix), Some(conduct)) = (mix, &spec.conduct) {
+            let mut stream = streams.stream(Purpose::TargetBehaviour, self.number);
+            let target = Minded { psi_rad: placed.psi_rad, duration_s_max };
+            return mix.draw(conduct, target, &mut stream);
+        }
         match &self.model.target.intent {
             IntentSpec::HoldCourse => Intent::HoldCourse,
             IntentSpec::Planner(name) => Intent::Planner(name.clone()),

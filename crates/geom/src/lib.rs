@@ -9,6 +9,7 @@ pub mod class;
 pub mod cpa;
 pub mod hull;
 pub mod math;
+pub mod polygon;
 pub mod relative;
 pub mod units;
 

@@ -2,7 +2,7 @@
 //!
 //! Made by `encounter`, read by `sim`. All positions are metres north and east of a local origin.
 
-use crate::{EncounterId, Seed};
+use crate::{EncounterId, Seed, Sensing};
 use geom::{EncounterClass, HullOutline, Vec2};
 use serde::{Deserialize, Serialize};
 
@@ -155,19 +155,47 @@ pub enum Intent {
         /// New speed, m/s.
         speed_mps: f64,
     },
+    /// Turns to one course after another, whatever own ship does; in the order of time.
+    Turns(Vec<Turn>),
+    /// Meets own ship as the rules ask, or fails to.
+    Duty(Conduct),
     /// Runs a planner from the registry, its own options included.
     Planner(String),
 }
 
-/// What own ship's planner can perceive.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// One turn of a script.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Turn {
+    /// When, in seconds from the start.
+    pub at_s: f64,
+    /// New course, radians clockwise from north.
+    pub course_rad: f64,
+}
+
+/// How a target meets own ship.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Conduct {
+    /// What she makes of her duty.
+    pub manner: Manner,
+    /// She acts when the time to the closest point is at most this, seconds: large for a ship that
+    /// gives way early, small for one that does so late.
+    pub act_tcpa_s: f64,
+    /// There is risk when the predicted distance between reference points is at most this, metres.
+    pub risk_dcpa_m: f64,
+    /// Size of her one alteration, radians, positive.
+    pub course_change_rad: f64,
+}
+
+/// What a target makes of her duty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Sensing {
-    /// The truth about every ship within `detection_range_m` (absent: all of them).
-    Perfect {
-        /// Metres between the reference points.
-        detection_range_m: Option<f64>,
-    },
+pub enum Manner {
+    /// Turns to starboard where she must give way; keeps course and speed where she must stand on.
+    Complies,
+    /// Keeps course and speed though obliged.
+    Neglects,
+    /// Turns to port, whatever her duty.
+    WrongWay,
 }
 
 /// Current, wind and waves.

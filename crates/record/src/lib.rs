@@ -10,6 +10,7 @@ pub mod encounter;
 pub mod id;
 pub mod outcome;
 pub mod row;
+pub mod sensing;
 pub mod stream;
 pub mod trace;
 pub mod verdict;
@@ -17,13 +18,14 @@ pub mod verdict;
 pub use check::Check;
 pub use digest::{Digest, RootDigest};
 pub use encounter::{
-    Asked, DistanceKind, Encounter, Intent, Motion, OwnShip, RunLimits, RunUntil, Sensing, Target,
-    Vessel, Visibility, Waypoint, Weather,
+    Asked, Conduct, DistanceKind, Encounter, Intent, Manner, Motion, OwnShip, RunLimits, RunUntil,
+    Target, Turn, Vessel, Visibility, Waypoint, Weather,
 };
 pub use geom::EncounterClass;
 pub use id::EncounterId;
 pub use outcome::Outcome;
 pub use row::{CheckCell, RunRow};
+pub use sensing::{Ais, AisRadar, Radar, Sensing, Tracker};
 pub use stream::{Purpose, Seed, Stream, Streams};
 pub use trace::{
     Alert, Contact, ContactWith, LastInstant, LastMinute, Nominal, Order, Pair, PairMinimum,

@@ -30,14 +30,19 @@ pub enum Purpose {
     Geometry = 0,
     /// Wind, waves and current.
     Environment = 1,
-    /// Measurement noise, dropouts and clutter.
+    /// AIS: errors and losses of a target's reports.
     Sensor = 2,
-    /// The tracker's own draws.
+    /// The tracker's own draws: frames that are dropped.
     Tracker = 3,
     /// What a target decides to do.
     TargetBehaviour = 4,
     /// The planner's own stream.
     Planner = 5,
+    /// Radar: errors and misses of a target's plots; of ship 0, the phase of the antenna and
+    /// clutter.
+    Radar = 6,
+    /// The state of the weather at the start; its fluctuations are `Environment`.
+    Weather = 7,
 }
 
 /// The streams of one encounter.

@@ -38,6 +38,11 @@ impl Approach {
         Self { near_m, warm, centre, last, interval_m, minimum }
     }
 
+    /// From now on every hull distance below `near_m` (metres) is exact.
+    pub fn set_near_m(&mut self, near_m: f64) {
+        self.near_m = near_m;
+    }
+
     /// The smallest distances so far.
     pub fn minimum(&self) -> PairMinimum {
         self.minimum

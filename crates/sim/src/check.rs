@@ -1,11 +1,13 @@
 //! Whether an encounter can be run at all.
 
 use crate::approach::Approach;
+use crate::hazard::Hazards;
 use crate::interval::Hulls;
 use crate::ship::Ship;
 use crate::vessel::{known_models, limits};
+use geom::polygon::{self, PolygonFault};
 use geom::{HullOutline, Vec2};
-use record::{Encounter, Intent, Motion, Vessel, Waypoint};
+use record::{AisRadar, Encounter, Intent, Motion, Sensing, Turn, Vessel, Waypoint};
 
 /// What is wrong with an encounter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -50,17 +52,28 @@ pub enum SetupError {
     /// Hulls overlap at the start.
     #[error("own ship and target {0} overlap at the start")]
     Overlap(usize),
-    /// A target that should run a planner, which this build of the world cannot give it.
-    #[error("target {target} runs the planner `{planner}`; targets under a planner are not wired")]
-    PlannerTarget {
-        /// Index.
+    /// Turns that are not in the order of time.
+    #[error("turn {turn} of target {target} comes before the one before it")]
+    TurnsOutOfOrder {
+        /// Index of the target.
         target: usize,
-        /// Name.
-        planner: String,
+        /// Index of the turn.
+        turn: usize,
     },
-    /// Hazards, which the world does not know yet.
-    #[error("there are {0} hazards; hazards are not wired")]
-    Hazards(usize),
+    /// More hazards than an index can name.
+    #[error("there are {0} hazards; at most 255 can be told apart")]
+    TooManyHazards(usize),
+    /// A hazard that is no simple polygon.
+    #[error("hazard {hazard}: {fault}")]
+    NoPolygon {
+        /// Index.
+        hazard: usize,
+        /// What is wrong with it.
+        fault: PolygonFault,
+    },
+    /// Own ship lies on a hazard at the start.
+    #[error("own ship touches hazard {0} at the start")]
+    Aground(usize),
 }
 
 /// Checks an encounter; [`crate::run`] gives `Outcome::Invalid` for what fails here.
@@ -72,8 +85,13 @@ pub fn check(encounter: &Encounter) -> Result<(), SetupError> {
     if targets.len() > usize::from(u8::MAX) {
         return Err(SetupError::TooManyTargets(targets.len()));
     }
-    if !hazards.is_empty() {
-        return Err(SetupError::Hazards(hazards.len()));
+    if hazards.len() > usize::from(u8::MAX) {
+        return Err(SetupError::TooManyHazards(hazards.len()));
+    }
+    for (hazard, corners) in hazards.iter().enumerate() {
+        if let Some(fault) = polygon::fault(corners) {
+            return Err(SetupError::NoPolygon { hazard, fault });
+        }
     }
     if own.route.is_empty() {
         return Err(SetupError::NoRoute);
@@ -84,6 +102,9 @@ pub fn check(encounter: &Encounter) -> Result<(), SetupError> {
     not_negative("the safety radius", encounter.safety_radius_m)?;
     not_negative("the cruise speed", own.cruise_mps)?;
     finite("the current", encounter.weather.current_mps)?;
+    if let Sensing::AisRadar(sensing) = &encounter.sensing {
+        check_sensing(sensing, run.beat_s)?;
+    }
     let steps = run.beat_s / run.step_s;
     if (steps - steps.round()).abs() > 1e-9 * steps || steps.round() < 1.0 {
         let (step_s, beat_s) = (run.step_s, run.beat_s);
@@ -140,9 +161,72 @@ fn check_intent(index: usize, name: &str, intent: &Intent) -> Result<(), SetupEr
             finite(&format!("the alteration of {name}"), Vec2::new(*at_s, *course_rad))?;
             not_negative(&format!("the new speed of {name}"), *speed_mps)
         }
-        Intent::Planner(planner) => {
-            Err(SetupError::PlannerTarget { target: index, planner: planner.clone() })
+        Intent::Turns(turns) => check_turns(index, name, turns),
+        Intent::Duty(conduct) => {
+            positive(&format!("the time to act of {name}"), conduct.act_tcpa_s)?;
+            positive(&format!("the distance of risk of {name}"), conduct.risk_dcpa_m)?;
+            positive(&format!("the alteration of {name}"), conduct.course_change_rad)
         }
+        // whether there is a planner of this name is for the registry to say
+        Intent::Planner(_) => Ok(()),
+    }
+}
+
+fn check_sensing(sensing: &AisRadar, beat_s: f64) -> Result<(), SetupError> {
+    let share = |what: &str, value: f64| {
+        let ok = (0.0..=1.0).contains(&value);
+        if ok { Ok(()) } else { Err(out_of_range(what, value, "from 0 to 1")) }
+    };
+    if let Some(ais) = &sensing.ais {
+        share("the share of ships with AIS", ais.carried)?;
+        share("the share of lost AIS reports", ais.dropout)?;
+        share("the share of wrong dimensions", ais.static_wrong)?;
+        share("the share of dimensions", ais.static_wrong + ais.static_missing)?;
+        not_negative("the error of AIS positions", ais.position_sd_m)?;
+        not_negative("the error of AIS speeds", ais.sog_sd_mps)?;
+        not_negative("the error of AIS courses", ais.cog_sd_rad)?;
+        not_negative("the error of AIS headings", ais.heading_sd_rad)?;
+        not_negative("the delay of first reports", ais.first_delay_s_mean)?;
+        not_negative("the latency of AIS", ais.latency_s)?;
+    }
+    if let Some(radar) = &sensing.radar {
+        if !(radar.rotation_s >= beat_s && radar.rotation_s.is_finite()) {
+            let range = "finite and at least the beat";
+            return Err(out_of_range("the turn of the radar", radar.rotation_s, range));
+        }
+        share("the probability of a plot", radar.detection_probability)?;
+        not_negative("the error of radar ranges", radar.range_sd_m)?;
+        not_negative("the error of radar bearings", radar.bearing_sd_rad)?;
+        positive("the range of half the radar's probability", radar.range_m_half)?;
+        positive("the range of the radar", radar.range_m_max)?;
+        if !(0.0..=50.0).contains(&radar.clutter_per_scan) {
+            return Err(out_of_range("the clutter", radar.clutter_per_scan, "from 0 to 50"));
+        }
+        not_negative("the range of clutter", radar.clutter_range_m)?;
+        not_negative("the latency of the radar", radar.latency_s)?;
+    }
+    let tracker = &sensing.tracker;
+    positive("the tracker's acceleration", tracker.acceleration_sd_mps2)?;
+    positive("the tracker's speed", tracker.speed_sd_mps)?;
+    positive("the tracker's gate", tracker.gate)?;
+    positive("the longest time without a plot", tracker.radar_coast_s_max)?;
+    positive("the longest time without a report", tracker.ais_coast_s_max)?;
+    share("the share of dropped frames", tracker.frame_drop)?;
+    let (hits, scans) = (tracker.confirm_hits, tracker.confirm_scans);
+    if hits == 0 || hits > scans || scans > 32 {
+        let range = "from 1 to the number of scans, which is at most 32";
+        return Err(out_of_range("the plots that confirm", f64::from(hits), range));
+    }
+    Ok(())
+}
+
+fn check_turns(target: usize, name: &str, turns: &[Turn]) -> Result<(), SetupError> {
+    for turn in turns {
+        finite(&format!("a turn of {name}"), Vec2::new(turn.at_s, turn.course_rad))?;
+    }
+    match turns.windows(2).position(|pair| pair[1].at_s < pair[0].at_s) {
+        Some(before) => Err(SetupError::TurnsOutOfOrder { target, turn: before + 1 }),
+        None => Ok(()),
     }
 }
 
@@ -167,6 +251,12 @@ fn check_apart(encounter: &Encounter) -> Result<(), SetupError> {
         let hulls = Hulls { own: &own.hull, target: &target.hull };
         if Approach::new(1.0, hulls, &own.pose, &target.pose).overlaps() {
             return Err(SetupError::Overlap(index));
+        }
+    }
+    for (index, corners) in encounter.hazards.iter().enumerate() {
+        let touches = Hazards::new(std::slice::from_ref(corners), &own).least_m() <= Some(0.0);
+        if touches || polygon::contains(corners, own.pose.position_m) {
+            return Err(SetupError::Aground(index));
         }
     }
     Ok(())

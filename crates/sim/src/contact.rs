@@ -129,18 +129,25 @@ pub fn collide(first: &Party<'_>, second: &Party<'_>) -> Aftermath {
 }
 
 fn insert(world: &mut PhysicsWorld, party: &Party<'_>) -> RigidBodyHandle {
-    let body = RigidBodyBuilder::dynamic()
+    let Inertia { mass_kg, yaw_kgm2 } = party.inertia;
+    let moves = mass_kg.is_finite();
+    let body = if moves { RigidBodyBuilder::dynamic() } else { RigidBodyBuilder::fixed() };
+    let body = body
         .pose(rapier_pose(&party.pose))
         .linvel(vector(party.pose.velocity_mps))
         .angvel(party.pose.yaw_rate_radps)
         .can_sleep(false);
-    let Inertia { mass_kg, yaw_kgm2 } = party.inertia;
-    let shape = SharedShape::convex_hull(party.hull.corners())
-        .expect("an outline of positive length and beam is a convex polygon");
-    let collider = ColliderBuilder::new(shape)
-        .mass_properties(MassProperties::new(Vector::ZERO, mass_kg, yaw_kgm2))
-        .restitution(RESTITUTION)
-        .friction(FRICTION);
+    let shape = match party.hull.corners() {
+        &[from, to] => SharedShape::segment(from, to),
+        corners => SharedShape::convex_hull(corners)
+            .expect("an outline of positive length and beam is a convex polygon"),
+    };
+    let collider = ColliderBuilder::new(shape).restitution(RESTITUTION).friction(FRICTION);
+    let collider = if moves {
+        collider.mass_properties(MassProperties::new(Vector::ZERO, mass_kg, yaw_kgm2))
+    } else {
+        collider
+    };
     world.insert(body, collider).0
 }
 

@@ -94,7 +94,9 @@ impl Ending {
         to_goal_m: f64,
     ) -> bool {
         let mut clear = true;
+        let mut alone = true;
         for (index, other) in others.enumerate() {
+            alone = false;
             clear &= self.is_clear_of(index, own, &other);
         }
         self.goal_reached |= to_goal_m <= self.capture_m;
@@ -105,7 +107,8 @@ impl Ending {
         let since_s = *self.clear_since_s.get_or_insert(t_s);
         let held = t_s - since_s >= HELD_S;
         match self.until {
-            RunUntil::PastAndClear => held,
+            // with hazards alone there is nobody to be clear of
+            RunUntil::PastAndClear => held && (!alone || self.goal_reached),
             RunUntil::GoalReached => held && self.goal_reached,
             RunUntil::TimeIsUp => false,
         }

@@ -10,10 +10,11 @@ use rapier2d_f64::parry::query::sweep_toi::{
     SimplexCache, Sweep, SweepToiStatus, ToiProxy, proxy_distance, sweep_time_of_impact,
 };
 
-/// A convex outline, ready for distance queries.
+/// A convex outline, or one edge of a hazard, ready for distance queries.
 #[derive(Clone, Debug)]
 pub struct Hull {
     corners: [Vector; CORNERS],
+    count: usize,
     /// Radius of the circle around the reference point that holds the outline, metres.
     pub radius_m: f64,
 }
@@ -59,15 +60,22 @@ impl Hull {
     /// The outline of a ship.
     pub fn new(outline: &HullOutline) -> Self {
         let corners = outline.corners_body_m().map(vector);
-        Self { corners, radius_m: outline.radius_m() }
+        Self { corners, count: CORNERS, radius_m: outline.radius_m() }
+    }
+
+    /// The edge from `-half_m` to `half_m` (north and east) about its reference point.
+    pub fn of_edge(half_m: Vec2) -> Self {
+        let mut corners = [Vector::ZERO; CORNERS];
+        (corners[0], corners[1]) = (vector(-half_m), vector(half_m));
+        Self { corners, count: 2, radius_m: half_m.norm() }
     }
 
     pub(crate) fn corners(&self) -> &[Vector] {
-        &self.corners
+        &self.corners[..self.count]
     }
 
     fn proxy(&self) -> ToiProxy<'_> {
-        ToiProxy::from_points(&self.corners, 0.0)
+        ToiProxy::from_points(self.corners(), 0.0)
     }
 
     /// The gap between this hull at `own` and the `other` one at `at`.

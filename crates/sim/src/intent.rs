@@ -3,10 +3,12 @@
 //!
 //! Asked once a beat, like a planner, on the same snapshot.
 
+use crate::duty::Duty;
+use crate::pose::Pose;
 use crate::ship::Ship;
 use crate::vessel::Helm;
 use geom::{Vec2, angle, math, wrap};
-use record::{Intent, Waypoint};
+use record::{Intent, Turn, Waypoint};
 
 /// A script and how far it has come.
 #[derive(Clone, Debug)]
@@ -24,23 +26,37 @@ pub enum Script {
     },
     /// Follows a route.
     Follow(Route),
+    /// Alters course again and again.
+    Turns {
+        /// What is still to come, the next one last.
+        left: Vec<Turn>,
+        /// Speed over ground, m/s.
+        speed_mps: f64,
+    },
+    /// Minds own ship, or fails to.
+    Duty(Duty),
 }
 
 impl Script {
-    /// The script of an intent; `None` for a planner, which is not a script.
-    pub fn of(intent: &Intent, ship: &Ship, speed_mps: f64) -> Option<Self> {
+    /// The script of an intent. A target under a planner has one as well: it keeps her course
+    /// where nobody asks the planner, on the nominal track.
+    pub fn of(intent: &Intent, ship: &Ship, speed_mps: f64) -> Self {
         match intent {
-            Intent::HoldCourse => Some(Self::Hold),
+            Intent::HoldCourse | Intent::Planner(_) => Self::Hold,
             Intent::Alter { at_s, course_rad, speed_mps } => {
-                Some(Self::Alter { at_s: *at_s, course_rad: *course_rad, speed_mps: *speed_mps })
+                Self::Alter { at_s: *at_s, course_rad: *course_rad, speed_mps: *speed_mps }
             }
-            Intent::Track(waypoints) => Some(Self::Follow(Route::new(ship, waypoints, speed_mps))),
-            Intent::Planner(_) => None,
+            Intent::Track(waypoints) => Self::Follow(Route::new(ship, waypoints, speed_mps)),
+            Intent::Turns(turns) => {
+                Self::Turns { left: turns.iter().rev().copied().collect(), speed_mps }
+            }
+            Intent::Duty(conduct) => Self::Duty(Duty::new(conduct, ship, speed_mps)),
         }
     }
 
-    /// Gives the ship her order of the beat at `t_s`.
-    pub fn steer(&mut self, ship: &mut Ship, t_s: f64) {
+    /// Gives the ship her order of the beat at `t_s`. `own` is own ship as everybody sees her, or
+    /// absent where nobody reacts to her: on the nominal track.
+    pub fn steer(&mut self, ship: &mut Ship, t_s: f64, own: Option<&Pose>) {
         match self {
             Self::Hold => {
                 if !ship.is_straight() && t_s <= 0.0 {
@@ -58,6 +74,19 @@ impl Script {
                 }
             }
             Self::Follow(route) => route.steer(ship, t_s),
+            Self::Turns { left, speed_mps } => {
+                let mut due = None;
+                while left.last().is_some_and(|turn| turn.at_s <= t_s) {
+                    due = left.pop();
+                }
+                if let Some(turn) = due {
+                    let (course, current_mps) = (wrap(turn.course_rad), ship.current_mps());
+                    ship.steer(Helm::over_ground(course, *speed_mps, current_mps), t_s);
+                } else if t_s <= 0.0 {
+                    ship.hold(t_s);
+                }
+            }
+            Self::Duty(duty) => duty.steer(ship, t_s, own),
         }
     }
 }
@@ -174,7 +203,7 @@ mod tests {
     fn sail(script: &mut Script, ship: &mut Ship, from_s: usize, to_s: usize) {
         for second in from_s..to_s {
             let t_s = second as f64;
-            script.steer(ship, t_s);
+            script.steer(ship, t_s, None);
             ship.advance(t_s + 0.5, 0.5);
             ship.advance(t_s + 1.0, 0.5);
         }

@@ -7,11 +7,14 @@
 pub mod approach;
 pub mod check;
 pub mod contact;
+pub mod duty;
 pub mod ending;
+pub mod hazard;
 pub mod hull;
 pub mod intent;
 pub mod interval;
 pub mod nominal;
+pub mod peer;
 pub mod pose;
 pub mod recorder;
 pub mod sensing;
@@ -21,5 +24,6 @@ pub mod world;
 
 pub use check::{SetupError, check};
 pub use nominal::nominal;
+pub use peer::MakePeer;
 pub use vessel::{Limits, known_models, limits};
-pub use world::{Scratch, run};
+pub use world::{Scratch, run, run_among};

@@ -32,8 +32,7 @@ pub fn nominal(encounter: &Encounter) -> Option<Nominal> {
         .iter()
         .map(|target| {
             let ship = ship(target.hull, &target.vessel, &target.start);
-            let script = Script::of(&target.intent, &ship, target.start.speed_mps)
-                .expect("the encounter was checked: no target runs a planner");
+            let script = Script::of(&target.intent, &ship, target.start.speed_mps);
             Sailor::new(ship, script, room)
         })
         .collect();
@@ -64,7 +63,7 @@ impl Sailor {
 
     /// Goes through the beat that starts at step `step`.
     fn advance(&mut self, step: u64, steps_a_beat: u64, step_s: f64) {
-        self.script.steer(&mut self.ship, step as f64 * step_s);
+        self.script.steer(&mut self.ship, step as f64 * step_s, None);
         let before = self.ship.pose;
         if self.ship.is_straight() {
             let beat_s = steps_a_beat as f64 * step_s;

@@ -7,8 +7,10 @@ use crate::approach::Approach;
 use crate::check::check;
 use crate::contact::{Inertia, Party, collide};
 use crate::ending::{Ending, Other};
+use crate::hazard::{Hazards, Touch};
 use crate::intent::Script;
 use crate::interval::{Hulls, Interval};
+use crate::peer::{MakePeer, Peer};
 use crate::pose::Pose;
 use crate::recorder;
 use crate::sensing::{Sensors, own_state};
@@ -18,7 +20,7 @@ use planner_api::{
     CommandError, FailureKind, Mission, Planner, PlannerFailure, Situation, TargetTrack,
 };
 use record::{
-    Alert, Contact, ContactWith, Encounter, Order, Outcome, Pair, PlannerEvents, Purpose,
+    Alert, Contact, ContactWith, Encounter, Intent, Order, Outcome, Pair, PlannerEvents, Purpose,
     ShipTrack, Streams, Trace, Visibility,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -36,10 +38,23 @@ pub struct Scratch {
 /// another thread can see a call that does not return. A planner's panic is caught and becomes
 /// the outcome; the caller may install a panic hook to keep it quiet. An encounter that
 /// [`check`] refuses gives `Outcome::Invalid` without samples. `nominal` and `last_minute` are
-/// left empty.
+/// left empty. Targets under a planner need [`run_among`]; here they make the encounter invalid.
 pub fn run(
     encounter: &Encounter,
     planner: &mut dyn Planner,
+    scratch: &mut Scratch,
+    beat: &AtomicU64,
+) -> Trace {
+    run_among(encounter, planner, &mut |_| None, scratch, beat)
+}
+
+/// As [`run`], and `peers` makes the planners of targets. An encounter whose peer is not known,
+/// panics or orders nonsense is `Outcome::Invalid` from then on: that is no fault of the planner
+/// under test in its own place.
+pub fn run_among(
+    encounter: &Encounter,
+    planner: &mut dyn Planner,
+    peers: &mut MakePeer<'_>,
     scratch: &mut Scratch,
     beat: &AtomicU64,
 ) -> Trace {
@@ -47,6 +62,9 @@ pub fn run(
         return invalid(encounter);
     }
     let mut world = World::new(encounter);
+    if !world.board_peers(peers) {
+        return invalid(encounter);
+    }
     let mut pilot = Pilot { planner, beat, mission: mission(encounter, &world.own) };
     let (outcome, end_s) = world.sail(&mut pilot, scratch);
     world.into_trace(outcome, end_s, pilot.events())
@@ -60,10 +78,13 @@ struct World<'a> {
     encounter: &'a Encounter,
     own: Ship,
     targets: Vec<Ship>,
+    /// Targets under a planner, with their indices.
+    peers: Vec<(usize, Peer)>,
     scripts: Vec<Script>,
     approaches: Vec<Approach>,
     sensors: Sensors,
     ending: Ending,
+    hazards: Hazards,
     own_track: ShipTrack,
     target_tracks: Vec<ShipTrack>,
     hull_m: Vec<Vec<f64>>,
@@ -117,10 +138,11 @@ impl<'a> World<'a> {
         let own = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
         let targets: Vec<Ship> =
             encounter.targets.iter().map(|t| ship(t.hull, &t.vessel, &t.start)).collect();
-        let scripts = encounter.targets.iter().zip(&targets).map(|(target, ship)| {
-            Script::of(&target.intent, ship, target.start.speed_mps)
-                .expect("the encounter was checked: no target runs a planner")
-        });
+        let scripts = encounter
+            .targets
+            .iter()
+            .zip(&targets)
+            .map(|(target, ship)| Script::of(&target.intent, ship, target.start.speed_mps));
         let near_m = NEAR_M_MIN.max(2.0 * encounter.safety_radius_m);
         let approaches = targets.iter().map(|target| {
             let hulls = Hulls { own: &own.hull, target: &target.hull };
@@ -131,9 +153,11 @@ impl<'a> World<'a> {
         Self {
             encounter,
             scripts: scripts.collect(),
+            peers: Vec::new(),
             approaches: approaches.collect(),
-            sensors: Sensors::new(&encounter.sensing, targets.len()),
+            sensors: Sensors::new(encounter, &targets),
             ending: Ending::new(encounter, own.model.limits().yaw_rate_radps_max),
+            hazards: Hazards::new(&encounter.hazards, &own),
             own_track: recorder::track_of(&own, room),
             target_tracks: targets.iter().map(|t| recorder::track_of(t, room)).collect(),
             hull_m: targets.iter().map(|_| Vec::with_capacity(room)).collect(),
@@ -143,6 +167,38 @@ impl<'a> World<'a> {
             own,
             targets,
         }
+    }
+
+    /// Puts the planners of targets on board; whether all of them are there and ready.
+    fn board_peers(&mut self, make: &mut MakePeer<'_>) -> bool {
+        for (index, target) in self.encounter.targets.iter().enumerate() {
+            let Intent::Planner(name) = &target.intent else { continue };
+            let Some(planner) = make(name) else { return false };
+            let mut peer = Peer::new(planner, self.encounter, index, &self.targets[index]);
+            if catch_unwind(AssertUnwindSafe(|| peer.reset())).is_err() {
+                return false;
+            }
+            self.peers.push((index, peer));
+        }
+        true
+    }
+
+    /// Orders of the targets for this beat; whether every one could be carried out.
+    fn steer_targets(&mut self, t_s: f64, beat: &AtomicU64) -> bool {
+        for (script, target) in self.scripts.iter_mut().zip(&mut self.targets) {
+            script.steer(target, t_s, Some(&self.own.pose));
+        }
+        // an order moves nobody before all have theirs
+        for (index, peer) in &mut self.peers {
+            let (own, targets) = (&self.own, &self.targets);
+            beat.fetch_add(1, Ordering::Relaxed);
+            let plan = AssertUnwindSafe(|| peer.plan(t_s, *index, own, targets));
+            let helm = catch_unwind(plan).ok().flatten();
+            beat.fetch_add(1, Ordering::Relaxed);
+            let Some(helm) = helm else { return false };
+            self.targets[*index].steer(helm, t_s);
+        }
+        true
     }
 
     /// Beats until the end: how the run ended and when (seconds).
@@ -167,13 +223,17 @@ impl<'a> World<'a> {
                 Ok(helm) => self.own.steer(helm, t_s),
                 Err(outcome) => return (outcome, t_s),
             }
-            for (script, target) in self.scripts.iter_mut().zip(&mut self.targets) {
-                script.steer(target, t_s);
+            if !self.steer_targets(t_s, pilot.beat) {
+                return (Outcome::Invalid, t_s);
             }
             for _ in 0..steps_a_beat {
                 if let Some(contact) = self.step(step) {
                     self.contact = Some(contact);
-                    return (Outcome::Collision, contact.t_s);
+                    let outcome = match contact.with {
+                        ContactWith::Target(_) => Outcome::Collision,
+                        ContactWith::Hazard(_) => Outcome::Grounding,
+                    };
+                    return (outcome, contact.t_s);
                 }
                 step += 1;
             }
@@ -222,11 +282,10 @@ impl<'a> World<'a> {
             })?;
         self.orders.push(Order { course_rad, speed_mps });
         // an alert about a track that does not exist declares nothing
-        let known = command.alerts.into_iter().filter(|a| tracks.iter().any(|t| t.id == a.track));
-        self.alerts.extend(known.map(|alert| Alert {
-            t_s,
-            target: alert.track as u8,
-            rule: alert.rule,
+        let sensors = &self.sensors;
+        self.alerts.extend(command.alerts.into_iter().filter_map(|alert| {
+            let target = sensors.target_of(alert.track, tracks)?;
+            Some(Alert { t_s, target, rule: alert.rule })
         }));
         Ok(Helm::over_ground(course_rad, speed_mps, self.own.current_mps()))
     }
@@ -252,7 +311,28 @@ impl<'a> World<'a> {
                 first = Some((fraction, index));
             }
         }
-        first.map(|(fraction, index)| self.contact(start_s, dt_s, fraction, index))
+        let ashore = self.hazards.advance(&self.own, start_s, dt_s);
+        match (first, ashore) {
+            (Some((fraction, index)), None) => Some(self.contact(start_s, dt_s, fraction, index)),
+            (Some((fraction, index)), Some(touch)) if fraction <= touch.fraction => {
+                Some(self.contact(start_s, dt_s, fraction, index))
+            }
+            (_, Some(touch)) => Some(self.grounding(start_s, dt_s, &touch)),
+            (None, None) => None,
+        }
+    }
+
+    fn grounding(&self, start_s: f64, dt_s: f64, touch: &Touch) -> Contact {
+        let own = &self.own;
+        let pose = Pose::between(&own.before, &own.pose, dt_s, touch.fraction);
+        let impact = self.hazards.impact(touch, &own.hull, pose, inertia(own));
+        Contact {
+            t_s: start_s + touch.fraction * dt_s,
+            with: ContactWith::Hazard(touch.hazard),
+            impact_mps: impact.closing_mps,
+            impulse_ns: impact.impulse_ns,
+            energy_lost_j: impact.energy_lost_j,
+        }
     }
 
     fn contact(&self, start_s: f64, dt_s: f64, fraction: f64, index: usize) -> Contact {
@@ -279,8 +359,8 @@ impl<'a> World<'a> {
             let (own, other) = (&self.own_track, &self.target_tracks[index]);
             let poses = |k: usize| [recorder::pose(own, k), recorder::pose(other, k)];
             let minimum = self.approaches[index].settle(&hull_m, hulls, poses, sample_s);
-            let seen_s = self.sensors.first_s(index);
-            pairs.push(Pair { hull_m, minimum, detected_s: seen_s, tracked_s: seen_s });
+            let (detected_s, tracked_s) = self.sensors.first_s(index);
+            pairs.push(Pair { hull_m, minimum, detected_s, tracked_s });
         }
         Trace {
             outcome,
@@ -288,6 +368,7 @@ impl<'a> World<'a> {
             own: self.own_track,
             targets: self.target_tracks,
             pairs,
+            hazard_m_min: self.hazards.least_m(),
             orders: self.orders,
             alerts: self.alerts,
             events,

@@ -85,6 +85,18 @@ fn wrong_values_are_named_with_what_would_be_right() {
     }
 }
 
+/// Land is told with the number of the polygon and of the edges that cross.
+#[test]
+fn a_hazard_that_crosses_itself_is_refused() {
+    let table = "[model.sensing]";
+    let bow_tie = "[model]\nhazard = [[[9.0, 9.0], [9.0, 19.0], [19.0, 9.0]], \
+         [[700.0, 0.0], [720.0, 20.0], [720.0, 0.0], [700.0, 20.0]]]\n[model.sensing]";
+    assert_eq!(
+        refused(table, bow_tie),
+        "`model.hazard.2` edge 1 meets edge 3; go around the outline once, without crossing it"
+    );
+}
+
 /// A class that the ships of the file cannot make is told before the first encounter, with the
 /// constraint that failed.
 #[test]

@@ -6,6 +6,7 @@ mod bad_input;
 mod common;
 #[cfg(test)]
 mod dnv_files;
+mod intents;
 #[cfg(test)]
 mod law;
 #[cfg(test)]

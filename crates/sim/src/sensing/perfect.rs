@@ -1,16 +1,12 @@
-//! What own ship's planner perceives: tracks, never the truth.
-//!
-//! The laboratory setting is the only one so far: every ship within a range is tracked without
-//! error and without delay.
+//! The laboratory setting: every ship within a range is tracked without error and without delay.
 
 use crate::ship::Ship;
 use geom::angle;
 use planner_api::{OwnState, TargetTrack};
-use record::Sensing;
 
-/// The sensors of own ship.
+/// Sensors that do not err.
 #[derive(Clone, Debug)]
-pub struct Sensors {
+pub struct Perfect {
     range_m_max: Option<f64>,
     tracked: Vec<Tracked>,
 }
@@ -27,11 +23,10 @@ pub struct Tracked {
 /// Squared speed below which a ship has no course of her own, (m/s)^2; that of a trace.
 const STOPPED_MPS2: f64 = 1e-12;
 
-impl Sensors {
-    /// The sensors of one encounter.
-    pub fn new(sensing: &Sensing, targets: usize) -> Self {
-        let Sensing::Perfect { detection_range_m } = sensing;
-        Self { range_m_max: *detection_range_m, tracked: vec![Tracked::default(); targets] }
+impl Perfect {
+    /// Sees `targets` ships within a range, metres; absent: at any range.
+    pub fn new(range_m_max: Option<f64>, targets: usize) -> Self {
+        Self { range_m_max, tracked: vec![Tracked::default(); targets] }
     }
 
     /// Looks at the world at `t_s` and writes the tracks. The number of a track is the index of
@@ -58,7 +53,7 @@ impl Sensors {
     }
 }
 
-fn track_of(index: usize, target: &Ship, age_s: f64) -> TargetTrack {
+pub(crate) fn track_of(index: usize, target: &Ship, age_s: f64) -> TargetTrack {
     let velocity_mps = target.pose.velocity_mps;
     let stopped = velocity_mps.norm_squared() < STOPPED_MPS2;
     TargetTrack {

@@ -1,0 +1,180 @@
+//! What targets mean to do: one intent for all, or a mix with declared shares.
+//!
+//! A mix is drawn from the stream of target behaviour, one for each ship, so that geometry is the
+//! same whatever the mix. Turns at random are drawn here, too, and written into the encounter: a
+//! replay needs no stream for them, and the nominal track makes the same turns.
+
+use crate::Distribution;
+use crate::Error;
+use crate::error::require;
+use crate::limits::positive;
+use geom::units::deg;
+use geom::wrap;
+use record::{Conduct, Intent, Manner, Stream, Turn};
+use serde::{Deserialize, Serialize};
+
+/// Shares of intents; they sum to 1, and an absent one is 0.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IntentMix {
+    /// Keeps course and speed, with no duty in mind.
+    pub hold_course: Option<f64>,
+    /// Gives way early, stands on where she must.
+    pub comply: Option<f64>,
+    /// The same, but late.
+    pub late: Option<f64>,
+    /// Does nothing though obliged; moves as `hold_course` does, and counts as a share of its own.
+    pub neglect: Option<f64>,
+    /// Turns to port, whatever her duty.
+    pub wrong_way: Option<f64>,
+    /// Turns at random times by random angles, whatever own ship does.
+    pub random: Option<f64>,
+    /// Runs the planner that `[model.target.conduct]` names.
+    pub planner: Option<f64>,
+}
+
+/// Numbers of the intents of a mix.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConductSpec {
+    /// Time to the closest point at which a complying target acts, seconds.
+    pub early_tcpa_s: Distribution,
+    /// The same of one that complies late.
+    pub late_tcpa_s: Distribution,
+    /// Size of the alteration, degrees.
+    pub course_change_deg: Distribution,
+    /// There is risk when the predicted distance between reference points is at most this, metres.
+    pub risk_dcpa_m: f64,
+    /// Mean time between turns at random, seconds; the times are those of a Poisson process.
+    pub random_turn_every_s: f64,
+    /// A turn at random, degrees off the course at the start, positive to starboard.
+    pub random_turn_deg: Distribution,
+    /// The planner of `planner` targets: a name of the registry, the tested one's own included.
+    pub planner: Option<String>,
+}
+
+/// A target before her intent is known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Minded {
+    /// Course at the start, radians.
+    pub(crate) psi_rad: f64,
+    /// Longest simulated time, seconds.
+    pub(crate) duration_s_max: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    HoldCourse,
+    Comply,
+    Late,
+    Neglect,
+    WrongWay,
+    Random,
+    Planner,
+}
+
+impl IntentMix {
+    fn shares(&self) -> [(Kind, &'static str, f64); 7] {
+        let share = |kind, name, share: Option<f64>| (kind, name, share.unwrap_or(0.0));
+        [
+            share(Kind::HoldCourse, "hold_course", self.hold_course),
+            share(Kind::Comply, "comply", self.comply),
+            share(Kind::Late, "late", self.late),
+            share(Kind::Neglect, "neglect", self.neglect),
+            share(Kind::WrongWay, "wrong_way", self.wrong_way),
+            share(Kind::Random, "random", self.random),
+            share(Kind::Planner, "planner", self.planner),
+        ]
+    }
+
+    pub(crate) fn validate(&self, key: &str, conduct: Option<&ConductSpec>) -> Result<(), Error> {
+        let mut sum = 0.0;
+        for (_, name, share) in self.shares() {
+            require(
+                (0.0..=1.0).contains(&share),
+                || format!("{key}.{name}"),
+                || format!("= {share} must be a share, from 0 to 1"),
+            )?;
+            sum += share;
+        }
+        require(
+            (sum - 1.0).abs() < 1e-9,
+            || key.to_owned(),
+            || format!("has shares that sum to {sum}; they must sum to 1"),
+        )?;
+        let Some(conduct) = conduct else {
+            return Err(Error::spec(
+                "model.target.conduct",
+                format!("is missing; it says how the targets of `{key}` act"),
+            ));
+        };
+        require(
+            self.planner.unwrap_or(0.0) <= 0.0 || conduct.planner.is_some(),
+            || "model.target.conduct.planner".to_owned(),
+            || format!("is missing; `{key}` has a share of targets under a planner"),
+        )
+    }
+
+    /// Draws an intent. The choice is the first draw of the stream, so that a change of the
+    /// conduct's numbers leaves it as it is.
+    pub(crate) fn draw(
+        &self,
+        conduct: &ConductSpec,
+        target: Minded,
+        stream: &mut Stream,
+    ) -> Intent {
+        let mut left = stream.uniform();
+        let shares = self.shares();
+        let chosen = shares.iter().find(|(_, _, share)| {
+            left -= share;
+            left < 0.0
+        });
+        // rounding can leave a remainder: the last kind with a share takes it
+        let last = shares.iter().rev().find(|(_, _, share)| *share > 0.0);
+        match chosen.or(last).map_or(Kind::HoldCourse, |(kind, _, _)| *kind) {
+            Kind::HoldCourse => Intent::HoldCourse,
+            Kind::Comply => conduct.duty(Manner::Complies, &conduct.early_tcpa_s, stream),
+            Kind::Late => conduct.duty(Manner::Complies, &conduct.late_tcpa_s, stream),
+            Kind::Neglect => conduct.duty(Manner::Neglects, &conduct.early_tcpa_s, stream),
+            Kind::WrongWay => conduct.duty(Manner::WrongWay, &conduct.early_tcpa_s, stream),
+            Kind::Random => conduct.turns(target, stream),
+            Kind::Planner => Intent::Planner(conduct.planner.clone().unwrap_or_default()),
+        }
+    }
+}
+
+impl ConductSpec {
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        const TABLE: &str = "model.target.conduct";
+        let key = |name: &str| format!("{TABLE}.{name}");
+        let time_s = |name: &str, law: &Distribution| law.validate_within(&key(name), 1.0, 3600.0);
+        time_s("early_tcpa_s", &self.early_tcpa_s)?;
+        time_s("late_tcpa_s", &self.late_tcpa_s)?;
+        self.course_change_deg.validate_within(&key("course_change_deg"), 1.0, 180.0)?;
+        positive(TABLE, "risk_dcpa_m", self.risk_dcpa_m)?;
+        positive(TABLE, "random_turn_every_s", self.random_turn_every_s)?;
+        self.random_turn_deg.validate_within(&key("random_turn_deg"), -180.0, 180.0)
+    }
+
+    fn duty(&self, manner: Manner, tcpa_s: &Distribution, stream: &mut Stream) -> Intent {
+        Intent::Duty(Conduct {
+            manner,
+            act_tcpa_s: tcpa_s.draw(stream),
+            risk_dcpa_m: self.risk_dcpa_m,
+            course_change_rad: deg(self.course_change_deg.draw(stream)),
+        })
+    }
+
+    fn turns(&self, target: Minded, stream: &mut Stream) -> Intent {
+        let mut turns = Vec::new();
+        let mut at_s = 0.0;
+        loop {
+            at_s += self.random_turn_every_s * stream.exponential();
+            if at_s >= target.duration_s_max {
+                return Intent::Turns(turns);
+            }
+            let off_rad = deg(self.random_turn_deg.draw(stream));
+            turns.push(Turn { at_s, course_rad: wrap(target.psi_rad + off_rad) });
+        }
+    }
+}
