@@ -1,9 +1,9 @@
 //! Both judges on one trace, and where they disagree.
 //!
 //! The first judge (`rules`) makes the verdicts. The second (`stl`) is asked where the campaign
-//! file says `second_judge = true`; its thresholds are those of the same rule set. It shares no code
-//! with the first, so a difference shows a slip of one of them. Reference: rules specification,
-//! section 12.
+//! file says `second_judge = true`; its thresholds are those of the same rule set. It shares no
+//! code with the first, so a difference shows a slip of one of them. Reference: rules
+//! specification, section 12.
 
 use crate::{Error, row};
 use record::verdict::Judgement;

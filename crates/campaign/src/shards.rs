@@ -1,8 +1,8 @@
 //! Parts of several shards: what is there, what is missing, and all of them as one.
 //!
 //! A shard is run into a folder of its own (`campaign --shard 3/1000 --out DIR/shard-0003`), so
-//! that no two machines write to one file. Parts appear whole, by rename, and carry the hash of their
-//! plan and of their content; here they are only found, and read later one by one in order.
+//! that no two machines write to one file. Parts appear whole, by rename, and carry the hash of
+//! their plan and of their content; here they are only found, and read later one by one in order.
 
 use crate::folder::{SHARD, differences};
 use crate::part::PartKey;

@@ -4,9 +4,9 @@
 //! its process with it, and because the planner of another commit lives in another binary.
 //! Standard input: one line with the plan as JSON, then a line for each request:
 //! places, or `case {question}` for a case of the corpus.
-//! Standard output, line by line: `hello {identity}`, `b PLACE` (begins), `r {row}` (ended), `e`
-//! (request done), `c [events]` (answer to a case), `x KIND message` (an error: `input` or `fault`).
-
+//! Standard output, line by line: `hello {identity}`, `b PLACE` (begins), `r {row}` (ended),
+//! `e` (request done), `c [events]` (answer to a case), `x KIND message` (an error: `input` or
+//! `fault`).
 use crate::arm::{self, InProcess, Step};
 use crate::corpus::{self, Question};
 use crate::fresh;

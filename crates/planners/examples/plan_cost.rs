@@ -31,7 +31,7 @@ fn main() {
     }
 }
 
-/// Every call follows a reset, so that no memory makes it cheap; the cost of the resets is taken off.
+/// Every call follows a reset, so that no memory makes it cheap; the resets' cost is taken off.
 #[expect(clippy::disallowed_methods, reason = "a benchmark reads the wall clock")]
 fn cost_us(entry: &planner_api::PlannerEntry, tracks: &[TargetTrack]) -> f64 {
     let mut planner = (entry.make)(&entry.options).expect("the default options are valid");
