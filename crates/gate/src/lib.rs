@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! gate.toml -> declared plan -> [ baseline and candidate on the same fresh encounters ] -> verdict
-//!  spec.rs      spec.rs            arm.rs, child.rs, run.rs                     stats::Gate, report
-//! ```
+//! gate.toml -> plan -> [ both planners on the same fresh encounters ] -> verdict, report
+//! spec.rs      spec.rs   arm.rs, child.rs, run.rs                        stats::Gate
 //!
 //! Where it stands in the flow: after `campaign`, whose workers run the encounters; the rule
 //! itself is pure and lives in `stats`. First file to read: [`run`].
