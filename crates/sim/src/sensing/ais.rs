@@ -85,8 +85,8 @@ impl Transponder {
         }
     }
 
-    /// The report that has fallen due by `t_s`, if one has and it is heard. Its numbers are those of
-    /// the beat.
+    /// The report that has fallen due by `t_s`, if one has and it is heard. Its numbers are those
+    /// of the beat.
     pub fn hear(&mut self, ais: &Ais, t_s: f64, ship: &Ship) -> Option<Measurement> {
         if t_s < self.next_s {
             return None;
