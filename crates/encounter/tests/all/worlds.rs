@@ -5,7 +5,7 @@ use encounter::Generator;
 use record::{Encounter, Intent, Seed, Sensing, Visibility};
 
 fn draw(generator: &Generator, stratum: usize, j: u64) -> Encounter {
-    generator.draw(Seed(20_261_121), stratum, j).unwrap().encounter
+    generator.draw(Seed(20_261_121), stratum, j).expect("the model can be drawn").encounter
 }
 
 /// The laboratory is today's `quick`, and the open sea meets the same ships in the same places.
