@@ -21,6 +21,7 @@ pub mod situation;
 pub mod spec;
 mod target;
 pub mod wanted;
+pub mod weather;
 
 pub use distribution::Distribution;
 pub use dnv::{SituationSettings, read_situations};

@@ -109,9 +109,16 @@ impl Generator {
                 .flatten()
                 .map(|polygon| corners(polygon, own.psi_rad))
                 .collect(),
-            weather: Weather::default(),
+            weather: self
+                .model
+                .weather
+                .as_ref()
+                .map_or_else(Weather::default, |w| w.draw(&streams)),
             sensing: self.model.sensing.sensing(),
-            visibility: Visibility::InSight,
+            visibility: match self.model.visual_range_m {
+                None => Visibility::InSight,
+                Some(visual_range_m) => Visibility::Restricted { visual_range_m },
+            },
             asked,
             safety_radius_m: self.run.safety_radius_m,
             distance: self.run.distance,

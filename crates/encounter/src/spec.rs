@@ -9,6 +9,7 @@ use crate::intent::{ConductSpec, IntentMix};
 use crate::limits::{Limits, ScaledLimits, positive, validate_either};
 use crate::sensing::SensingSpec;
 use crate::wanted::Border;
+use crate::weather::WeatherSpec;
 use crate::{Error, RunSettings};
 use geom::units::deg;
 use geom::{EncounterClass, HeadOnSector, Vec2};
@@ -26,6 +27,11 @@ pub struct Model {
     pub geometry: GeometrySpec,
     /// What own ship perceives.
     pub sensing: SensingSpec,
+    /// Current, wind and waves; absent: calm.
+    pub weather: Option<WeatherSpec>,
+    /// Ships nearer than this see one another, metres, and beyond it Rule 19 holds; absent: all
+    /// are in sight.
+    pub visual_range_m: Option<f64>,
     /// Land, piers and shoals: simple polygons, corners in metres ahead of own start and to
     /// starboard of it, which is north and east where own course is north; absent: none.
     pub hazard: Option<Vec<Polygon>>,
@@ -203,6 +209,9 @@ impl Model {
         self.target.validate()?;
         self.geometry.validate(&self.own)?;
         self.sensing.validate("model.sensing")?;
+        self.weather.as_ref().map_or(Ok(()), WeatherSpec::validate)?;
+        self.visual_range_m
+            .map_or(Ok(()), |range_m| positive("model", "visual_range_m", range_m))?;
         validate_hazards("model.hazard", self.hazard.as_ref())?;
         self.validate_radius(run)?;
         require(

@@ -2,7 +2,7 @@
 //!
 //! Made by `encounter`, read by `sim`. All positions are metres north and east of a local origin.
 
-use crate::{EncounterId, Seed, Sensing};
+use crate::{EncounterId, Seed, Sensing, Weather};
 use geom::{EncounterClass, HullOutline, Vec2};
 use serde::{Deserialize, Serialize};
 
@@ -196,13 +196,6 @@ pub enum Manner {
     Neglects,
     /// Turns to port, whatever her duty.
     WrongWay,
-}
-
-/// Current, wind and waves.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Weather {
-    /// Constant current, metres a second towards north and east; zero in calm.
-    pub current_mps: Vec2,
 }
 
 /// In sight of one another, or not.

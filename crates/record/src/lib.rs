@@ -14,12 +14,13 @@ pub mod sensing;
 pub mod stream;
 pub mod trace;
 pub mod verdict;
+pub mod weather;
 
 pub use check::Check;
 pub use digest::{Digest, RootDigest};
 pub use encounter::{
     Asked, Conduct, DistanceKind, Encounter, Intent, Manner, Motion, OwnShip, RunLimits, RunUntil,
-    Target, Turn, Vessel, Visibility, Waypoint, Weather,
+    Target, Turn, Vessel, Visibility, Waypoint,
 };
 pub use geom::EncounterClass;
 pub use id::EncounterId;
@@ -32,3 +33,4 @@ pub use trace::{
     PlannerEvents, Ship, ShipTrack, Trace,
 };
 pub use verdict::{Evidence, Judgement, PairFacts, Reaction, Role, Status, Unit, Verdict};
+pub use weather::{Fluctuation, Waves, Weather, Wind};

@@ -7,7 +7,9 @@ use crate::ship::Ship;
 use crate::vessel::{known_models, limits};
 use geom::polygon::{self, PolygonFault};
 use geom::{HullOutline, Vec2};
-use record::{AisRadar, Encounter, Intent, Motion, Sensing, Turn, Vessel, Waypoint};
+use record::{
+    AisRadar, Encounter, Fluctuation, Intent, Motion, Sensing, Turn, Vessel, Waypoint, Weather,
+};
 
 /// What is wrong with an encounter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -102,6 +104,7 @@ pub fn check(encounter: &Encounter) -> Result<(), SetupError> {
     not_negative("the safety radius", encounter.safety_radius_m)?;
     not_negative("the cruise speed", own.cruise_mps)?;
     finite("the current", encounter.weather.current_mps)?;
+    check_weather(&encounter.weather)?;
     if let Sensing::AisRadar(sensing) = &encounter.sensing {
         check_sensing(sensing, run.beat_s)?;
     }
@@ -170,6 +173,30 @@ fn check_intent(index: usize, name: &str, intent: &Intent) -> Result<(), SetupEr
         // whether there is a planner of this name is for the registry to say
         Intent::Planner(_) => Ok(()),
     }
+}
+
+fn check_weather(weather: &Weather) -> Result<(), SetupError> {
+    let noise = |what: &str, noise: &Fluctuation| {
+        not_negative(&format!("the strength of {what}"), noise.sd_mps)?;
+        positive(&format!("the time constant of {what}"), noise.time_constant_s)
+    };
+    if let Some(current) = &weather.current_noise {
+        noise("the current's noise", current)?;
+    }
+    if let Some(wind) = &weather.wind {
+        finite("the wind", wind.velocity_mps)?;
+        noise("gusts", &wind.gusts)?;
+        not_negative("leeway", wind.leeway)?;
+    }
+    if let Some(waves) = &weather.waves {
+        finite("the drift by waves", waves.drift_mps)?;
+        let drift =
+            Fluctuation { sd_mps: waves.drift_sd_mps, time_constant_s: waves.time_constant_s };
+        noise("waves", &drift)?;
+        not_negative("the yaw by waves", waves.yaw_rate_sd_radps)?;
+        positive("the reference length of waves", waves.length_m_ref)?;
+    }
+    Ok(())
 }
 
 fn check_sensing(sensing: &AisRadar, beat_s: f64) -> Result<(), SetupError> {

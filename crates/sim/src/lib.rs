@@ -20,6 +20,7 @@ pub mod recorder;
 pub mod sensing;
 pub mod ship;
 pub mod vessel;
+pub mod weather;
 pub mod world;
 
 pub use check::{SetupError, check};

@@ -11,6 +11,7 @@ use crate::intent::{Route, Script};
 use crate::interval::{Hulls, Interval};
 use crate::recorder;
 use crate::ship::Ship;
+use crate::weather::Environment;
 use record::{Encounter, Nominal, ShipTrack};
 
 /// The nominal track of an encounter; `None` where [`check`] refuses it.
@@ -89,9 +90,15 @@ fn sail(encounter: &Encounter, mut own: Sailor, mut targets: Vec<Sailor>) -> Nom
         .collect();
     let mut bounds_m: Vec<Vec<f64>> =
         targets.iter().map(|_| Vec::with_capacity(samples(encounter))).collect();
+    let mut environment = Environment::new(encounter);
     let mut step = 0;
     loop {
         let t_s = step as f64 * run.step_s;
+        environment.advance();
+        environment.apply(0, &mut own.ship);
+        for (target, number) in targets.iter_mut().zip(1..) {
+            environment.apply(number, &mut target.ship);
+        }
         own.sample();
         targets.iter_mut().for_each(Sailor::sample);
         for (bounds_m, approach) in bounds_m.iter_mut().zip(&mut approaches) {

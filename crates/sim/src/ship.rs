@@ -29,6 +29,19 @@ pub struct Ship {
     /// While nothing changes: position and time from which she goes straight on.
     straight: Option<(Vec2, f64)>,
     current_mps: Vec2,
+    drift_mps: Vec2,
+    yaw_disturbance_radps: f64,
+}
+
+/// What the weather does to a ship for one beat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disturbance {
+    /// The part of the drift that her navigator knows and steers against, m/s north and east.
+    pub known_mps: Vec2,
+    /// All of the drift, m/s.
+    pub drift_mps: Vec2,
+    /// Yaw rate that waves impose, rad/s.
+    pub yaw_rate_radps: f64,
 }
 
 impl Ship {
@@ -56,6 +69,8 @@ impl Ship {
             helm,
             straight: None,
             current_mps,
+            drift_mps: current_mps,
+            yaw_disturbance_radps: 0.0,
         })
     }
 
@@ -73,7 +88,25 @@ impl Ship {
         self.steer(Helm { psi_rad, direction: heading, speed_mps: surge_mps }, t_s);
     }
 
-    /// Current, metres a second north and east.
+    /// Puts her into the weather of a beat. She is not in closed form any more.
+    pub fn disturb(&mut self, disturbance: Disturbance) {
+        self.current_mps = disturbance.known_mps;
+        self.drift_mps = disturbance.drift_mps;
+        self.yaw_disturbance_radps = disturbance.yaw_rate_radps;
+        self.closed_form = false;
+        self.straight = None;
+        self.pose = self.pose_of_state();
+    }
+
+    fn pose_of_state(&self) -> Pose {
+        let mut pose = Pose::of(&self.state, self.drift_mps);
+        if self.yaw_disturbance_radps.abs() > 0.0 {
+            pose.yaw_rate_radps += self.yaw_disturbance_radps;
+        }
+        pose
+    }
+
+    /// Set and drift that she knows of, metres a second north and east: the current, in calm.
     pub fn current_mps(&self) -> Vec2 {
         self.current_mps
     }
@@ -97,8 +130,12 @@ impl Ship {
             self.pose.position_m = position_m;
             return;
         }
-        self.state = self.model.step(&self.state, &self.helm, self.current_mps, dt_s);
-        self.pose = Pose::of(&self.state, self.current_mps);
+        self.state = self.model.step(&self.state, &self.helm, self.drift_mps, dt_s);
+        if self.yaw_disturbance_radps.abs() > 0.0 {
+            let psi_rad = geom::wrap(self.state.psi_rad + self.yaw_disturbance_radps * dt_s);
+            (self.state.psi_rad, self.state.heading) = (psi_rad, geom::unit(psi_rad));
+        }
+        self.pose = self.pose_of_state();
         if self.goes_straight() {
             self.straight = Some((self.state.position_m, to_s));
         }

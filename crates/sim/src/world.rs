@@ -16,6 +16,7 @@ use crate::recorder;
 use crate::sensing::{Sensors, own_state};
 use crate::ship::Ship;
 use crate::vessel::{Helm, Model};
+use crate::weather::Environment;
 use planner_api::{
     CommandError, FailureKind, Mission, Planner, PlannerFailure, Situation, TargetTrack,
 };
@@ -84,6 +85,7 @@ struct World<'a> {
     approaches: Vec<Approach>,
     sensors: Sensors,
     ending: Ending,
+    environment: Environment,
     hazards: Hazards,
     own_track: ShipTrack,
     target_tracks: Vec<ShipTrack>,
@@ -157,6 +159,7 @@ impl<'a> World<'a> {
             approaches: approaches.collect(),
             sensors: Sensors::new(encounter, &targets),
             ending: Ending::new(encounter, own.model.limits().yaw_rate_radps_max),
+            environment: Environment::new(encounter),
             hazards: Hazards::new(&encounter.hazards, &own),
             own_track: recorder::track_of(&own, room),
             target_tracks: targets.iter().map(|t| recorder::track_of(t, room)).collect(),
@@ -211,6 +214,7 @@ impl<'a> World<'a> {
         let mut step = 0;
         loop {
             let t_s = step as f64 * run.step_s;
+            self.weather();
             self.sample();
             if self.is_over(t_s) {
                 return (Outcome::Completed, t_s);
@@ -237,6 +241,14 @@ impl<'a> World<'a> {
                 }
                 step += 1;
             }
+        }
+    }
+
+    fn weather(&mut self) {
+        self.environment.advance();
+        self.environment.apply(0, &mut self.own);
+        for (target, number) in self.targets.iter_mut().zip(1..) {
+            self.environment.apply(number, target);
         }
     }
 

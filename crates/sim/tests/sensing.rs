@@ -56,7 +56,8 @@ fn with(mut encounter: Encounter, settings: AisRadar) -> Encounter {
 }
 
 fn ships(encounter: &Encounter) -> (Ship, Vec<Ship>) {
-    let ship = |hull, vessel, start| Ship::new(hull, vessel, start, Vec2::zeros()).expect("a ship");
+    let ship =
+        |hull, vessel, start| Ship::new(hull, vessel, start, Vec2::zeros()).expect("a known model");
     let own = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
     let targets = encounter.targets.iter().map(|t| ship(t.hull, &t.vessel, &t.start)).collect();
     (own, targets)

@@ -13,3 +13,4 @@ mod law;
 mod named_sets;
 #[cfg(test)]
 mod promise;
+mod worlds;

@@ -83,6 +83,9 @@ pub struct Autopilot {
     pub speed: f64,
 }
 
+/// No ship forgets a motion slower, seconds. A laden tanker coasts for half an hour.
+const TIME_CONSTANT_S_MAX: f64 = 3600.0;
+
 /// Speed below which the drift angle loses its meaning and the autopilot steers by heading, m/s.
 const DRIFT_MPS: f64 = 0.5;
 
@@ -119,6 +122,19 @@ impl ThreeDof {
             acceleration_mps2_max: thrust_n / self.mass.surge,
             steerage_mps: self.steerage_mps,
         }
+    }
+
+    /// Time constants of surge, sway and yaw at rest, seconds: mass over linear damping. They tell
+    /// a slip of a unit in a parameter set from a ship.
+    pub fn time_constants_s(&self) -> [f64; 3] {
+        let masses = [self.mass.surge, self.mass.sway, self.mass.yaw];
+        std::array::from_fn(|axis| masses[axis] / self.damping[axis].linear)
+    }
+
+    /// Whether a ship could have these time constants: over a tenth of a second, and no more than
+    /// [`TIME_CONSTANT_S_MAX`].
+    pub fn is_a_ship(&self) -> bool {
+        self.time_constants_s().iter().all(|t_s| (0.1..=TIME_CONSTANT_S_MAX).contains(t_s))
     }
 
     /// Speed at which full thrust ahead meets the resistance, m/s, by bisection.
@@ -281,6 +297,30 @@ const COS: [f64; 5] = [-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The SR108 set of commonocean-vessel-models 1.0.0 (BSD): damping lost three powers of ten, so
+    /// that sway lives for 65 hours and yaw for 25.
+    #[test]
+    fn parameter_sets_that_no_ship_has_are_refused() {
+        let viknes = crate::vessel::VIKNES;
+        assert!(viknes.is_a_ship(), "{:?}", viknes.time_constants_s());
+        let linear = |linear| Damping { linear, quadratic: 0.0, cubic: 0.0 };
+        let sr108 = ThreeDof {
+            mass: MassMatrix {
+                surge: 24_562_069.875 + 1_799_893.025,
+                sway: 24_562_069.875 + 26_543_765.987,
+                sway_yaw: 0.0,
+                yaw: 54_996_070_984.667 + 44_854_701_237.090,
+            },
+            damping: [linear(150_639.788), linear(218.603), linear(1_113_465.738)],
+            ..viknes
+        };
+        let [surge_s, sway_s, yaw_s] = sr108.time_constants_s();
+        assert!((surge_s - 175.0).abs() < 1.0, "{surge_s}");
+        assert!((sway_s / 3600.0 - 65.0).abs() < 0.5, "{sway_s}");
+        assert!((yaw_s / 3600.0 - 25.0).abs() < 0.5, "{yaw_s}");
+        assert!(!sr108.is_a_ship());
+    }
 
     #[test]
     fn short_series_is_the_sine() {

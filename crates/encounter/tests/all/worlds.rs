@@ -1,0 +1,40 @@
+//! The campaign files of the harder worlds can be drawn from, and say what they promise.
+
+use crate::common::{generator, quick};
+use encounter::Generator;
+use record::{Encounter, Intent, Seed, Sensing, Visibility};
+
+fn draw(generator: &Generator, stratum: usize, j: u64) -> Encounter {
+    generator.draw(Seed(20_261_121), stratum, j).expect("the model can be drawn").encounter
+}
+
+/// The laboratory is today's `quick`, and the open sea meets the same ships in the same places.
+#[test]
+fn the_open_sea_is_the_laboratory_with_weather_noise_and_intents() {
+    let (open, laboratory) = (generator("open-sea"), generator("laboratory"));
+    let mut minding = 0;
+    for stratum in 0..9 {
+        for j in 0..20 {
+            let lab = draw(&laboratory, stratum, j);
+            assert_eq!(lab, draw(quick(), stratum, j));
+            let mut sea = draw(&open, stratum, j);
+            assert!(matches!(sea.sensing, Sensing::AisRadar(_)));
+            assert!(sea.weather.wind.is_some() && sea.weather.current_mps.norm() < 0.8);
+            minding += u32::from(sea.targets[0].intent != Intent::HoldCourse);
+            sea.targets[0].intent = Intent::HoldCourse;
+            (sea.weather, sea.sensing) = (lab.weather, lab.sensing.clone());
+            assert_eq!(sea, lab);
+        }
+    }
+    assert!((40..110).contains(&minding), "{minding} of 180");
+}
+
+#[test]
+fn fog_restricts_visibility_and_the_harbour_has_land() {
+    let fog = draw(&generator("fog"), 0, 0);
+    assert_eq!(fog.visibility, Visibility::Restricted { visual_range_m: 400.0 });
+    let harbour = generator("harbour");
+    let most = (0..harbour.strata().len()).map(|s| draw(&harbour, s, 3).targets.len()).max();
+    assert_eq!(most, Some(3));
+    assert_eq!(draw(&harbour, 0, 0).hazards.len(), 3);
+}

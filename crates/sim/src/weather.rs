@@ -1,0 +1,148 @@
+//! Current, wind and waves as ships feel them, one draw a beat.
+//!
+//! First-order Gauss-Markov processes in their exact discretisation (Gillespie 1996, Physical
+//! Review E 54), started from their stationary law. Current and gusts are the same for all ships
+//! and come from the environment stream of ship 0; waves are each ship's own. Nothing depends on
+//! what a ship does but the leeway, which goes with her heading.
+
+use crate::ship::{Disturbance, Ship};
+use geom::{Vec2, math};
+use record::{Encounter, Purpose, Stream, Streams, Weather};
+
+/// The weather of one run.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    weather: Weather,
+    steady: bool,
+    common: Stream,
+    current_off: [Process; 2],
+    gust: Process,
+    seas: Vec<Sea>,
+}
+
+/// The waves of one ship.
+#[derive(Clone, Debug)]
+struct Sea {
+    stream: Stream,
+    share: f64,
+    drift: [Process; 2],
+    yaw: Process,
+}
+
+/// A first-order Gauss-Markov process.
+#[derive(Clone, Copy, Debug)]
+pub struct Process {
+    sd: f64,
+    keep: f64,
+    value: Option<f64>,
+}
+
+impl Process {
+    /// A process of a standard deviation and a time constant, drawn every `dt_s` seconds.
+    pub fn new(sd: f64, time_constant_s: f64, dt_s: f64) -> Self {
+        Self { sd, keep: math::exp(-dt_s / time_constant_s), value: None }
+    }
+
+    /// The next value.
+    pub fn next(&mut self, stream: &mut Stream) -> f64 {
+        let draw = stream.normal();
+        let fresh = (1.0 - self.keep * self.keep).sqrt();
+        let value = match self.value {
+            None => self.sd * draw,
+            Some(value) => self.keep * value + self.sd * fresh * draw,
+        };
+        self.value = Some(value);
+        value
+    }
+
+    fn value(&self) -> f64 {
+        self.value.unwrap_or(0.0)
+    }
+}
+
+impl Environment {
+    /// The weather of an encounter before the first beat.
+    pub fn new(encounter: &Encounter) -> Self {
+        let weather = encounter.weather;
+        let beat_s = encounter.run.beat_s;
+        let streams = Streams::new(encounter.seed, &encounter.id);
+        let steady =
+            weather.current_noise.is_none() && weather.wind.is_none() && weather.waves.is_none();
+        let process = |sd, time_constant_s| Process::new(sd, time_constant_s, beat_s);
+        let current = weather
+            .current_noise
+            .map_or(process(0.0, 1.0), |noise| process(noise.sd_mps, noise.time_constant_s));
+        let gust = weather.wind.map_or(process(0.0, 1.0), |wind| {
+            process(wind.gusts.sd_mps, wind.gusts.time_constant_s)
+        });
+        let own_m = encounter.own.hull.length_m;
+        let lengths_m =
+            std::iter::once(own_m).chain(encounter.targets.iter().map(|t| t.hull.length_m));
+        let seas = weather.waves.iter().flat_map(|waves| {
+            let ships = lengths_m.clone().zip(0u8..);
+            ships.map(|(length_m, ship)| Sea {
+                stream: streams.stream(Purpose::Environment, ship.saturating_add(1)),
+                share: (waves.length_m_ref / length_m).min(1.0),
+                drift: [process(waves.drift_sd_mps, waves.time_constant_s); 2],
+                yaw: process(waves.yaw_rate_sd_radps, waves.time_constant_s),
+            })
+        });
+        Self {
+            steady,
+            common: streams.stream(Purpose::Environment, 0),
+            current_off: [current; 2],
+            gust,
+            seas: seas.collect(),
+            weather,
+        }
+    }
+
+    /// Whether nothing but a constant current moves the ships.
+    pub fn is_steady(&self) -> bool {
+        self.steady
+    }
+
+    /// Goes on to the next beat; the first call makes time 0.
+    pub fn advance(&mut self) {
+        if self.steady {
+            return;
+        }
+        for process in &mut self.current_off {
+            process.next(&mut self.common);
+        }
+        self.gust.next(&mut self.common);
+        for sea in &mut self.seas {
+            for process in &mut sea.drift {
+                process.next(&mut sea.stream);
+            }
+            sea.yaw.next(&mut sea.stream);
+        }
+    }
+
+    /// Puts a ship into the weather of this beat: own ship is number 0, target `i` is `1 + i`.
+    pub fn apply(&self, number: usize, ship: &mut Ship) {
+        if self.steady {
+            return;
+        }
+        let mut known_mps = self.weather.current_mps;
+        let mut drift_mps = Vec2::new(self.current_off[0].value(), self.current_off[1].value());
+        let mut yaw_rate_radps = 0.0;
+        if let Some(wind) = &self.weather.wind {
+            let heading = ship.state.heading;
+            let abeam = Vec2::new(-heading.y, heading.x);
+            let speed_mps = wind.velocity_mps.norm();
+            let mean_mps = abeam * (wind.leeway * wind.velocity_mps.dot(&abeam));
+            known_mps += mean_mps;
+            if speed_mps > 0.0 {
+                drift_mps += mean_mps * (self.gust.value() / speed_mps);
+            }
+        }
+        if let (Some(waves), Some(sea)) = (&self.weather.waves, self.seas.get(number)) {
+            known_mps += waves.drift_mps * sea.share;
+            drift_mps += Vec2::new(sea.drift[0].value(), sea.drift[1].value()) * sea.share;
+            yaw_rate_radps = sea.yaw.value() * sea.share;
+        }
+        drift_mps += known_mps;
+        ship.disturb(Disturbance { known_mps, drift_mps, yaw_rate_radps });
+    }
+}
