@@ -4,6 +4,7 @@
 mod end_to_end;
 mod killed;
 mod lost_runs;
+mod negative_controls;
 mod refusals;
 mod same_bits;
 mod support;
