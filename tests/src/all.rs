@@ -7,6 +7,7 @@ mod golden;
 mod judge_again;
 mod killed;
 mod lost_runs;
+mod negative_controls;
 mod refusals;
 mod same_bits;
 mod shards;

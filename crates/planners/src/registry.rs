@@ -31,6 +31,16 @@ pub fn registry() -> Registry {
             ZhuangOptions::default(),
         ))
         .with(entry_zhuang(
+            "zhuang-goal-first",
+            "reading: every beat starts from the goal velocity",
+            ZhuangOptions::goal_first(),
+        ))
+        .with(entry_zhuang(
+            "zhuang-when-safe",
+            "reading: the goal velocity is ordered unchecked once the present one is safe",
+            ZhuangOptions::when_safe(),
+        ))
+        .with(entry_zhuang(
             "zhuang-latched",
             "its smallest repair: class and side are kept until past and clear",
             ZhuangOptions::latched(),

@@ -15,8 +15,6 @@ pub struct Encounter {
     pub class: EncounterClass,
     /// Own course at first risk, radians clockwise from north.
     pub course_rad: f64,
-    /// The range closes.
-    pub closing: bool,
     /// Relative bearing now, radians, positive to starboard.
     pub beta_rad: f64,
     /// The class was in doubt: it may be a crossing to the other ship.
@@ -56,7 +54,6 @@ impl Encounter {
             id,
             class,
             course_rad: own.cog_rad,
-            closing: true,
             beta_rad,
             doubtful,
             may_act,
@@ -67,7 +64,6 @@ impl Encounter {
     /// Lets a stand-on ship act once the other one has plainly done nothing.
     pub fn watch(&mut self, moment: Moment, options: &CorrectedOptions) {
         self.beta_rad = moment.beta_rad;
-        self.closing = moment.closing_mps > 0.0;
         if self.may_act {
             return;
         }
@@ -99,10 +95,10 @@ impl Encounter {
     }
 
     /// The course to port of which a return to the route must not go yet: Rule 17(c) looks at the
-    /// whole time until the closest point.
+    /// whole time until the closest point. A range that opens during own alteration may close again
+    /// on the way back, so the limit lasts as long as the encounter.
     pub fn port_limit_rad(&self) -> Option<f64> {
-        let crossing = self.class == EncounterClass::CrossingPort;
-        (crossing && self.closing).then_some(self.course_rad)
+        (self.class == EncounterClass::CrossingPort).then_some(self.course_rad)
     }
 
     /// Whether the target has to be left on own port hand (port to port; astern of it).
@@ -140,7 +136,6 @@ mod tests {
             id: 1,
             class: EncounterClass::CrossingPort,
             course_rad: 0.0,
-            closing: true,
             beta_rad: -1.0,
             doubtful: false,
             may_act: false,

@@ -20,6 +20,9 @@ const WORTH_A_CHANGE_M: f64 = 10.0;
 const RETURN_SPARE_M: f64 = 15.0;
 /// A wish farther off the present course than this is the next leg of the route.
 const LEG_CHANGE_RAD: f64 = deg(75.0);
+/// The closest point must lie this far back before an encounter is over, seconds: between hulls it
+/// comes later than between reference points, and a return to the route moves it again.
+const PAST_S: f64 = 10.0;
 /// An alteration counts as made this much below its size, radians.
 const MADE_WITHIN_RAD: f64 = deg(2.0);
 
@@ -251,7 +254,7 @@ fn alert(encounter: &Encounter) -> Alert {
 /// One target at this moment, at own ship's present velocity and at the wished one.
 struct Now {
     moment: Moment,
-    /// The range opens at both velocities.
+    /// At both velocities the closest point lies well behind.
     opens: bool,
     /// The nearer of the two predictions that lie ahead, metres as the mission measures.
     risk_dcpa_m: f64,
@@ -274,6 +277,7 @@ impl Now {
                 risk = (prediction.dcpa_m, tcpa_s);
             }
         }
+        let is_past = |tcpa_s: Option<f64>| tcpa_s.is_none_or(|t_s| t_s < -PAST_S);
         let moment = Moment {
             t_s,
             range_m: los_m.norm(),
@@ -283,7 +287,7 @@ impl Now {
         };
         Self {
             moment,
-            opens: risk.1.is_infinite(),
+            opens: is_past(present.tcpa_s) && is_past(wished.tcpa_s),
             risk_dcpa_m: risk.0 - hulls_m,
             risk_tcpa_s: risk.1,
         }

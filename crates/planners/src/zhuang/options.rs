@@ -89,6 +89,16 @@ impl ZhuangOptions {
         Self { equations: Equations::AsPrinted, ..Self::default() }
     }
 
+    /// The reading that starts from the goal velocity.
+    pub fn goal_first() -> Self {
+        Self { resume: Resume::GoalFirst, ..Self::default() }
+    }
+
+    /// The reading that resumes the goal velocity unchecked.
+    pub fn when_safe() -> Self {
+        Self { resume: Resume::WhenSafe, ..Self::default() }
+    }
+
     /// The smallest repair: class and side are kept.
     pub fn latched() -> Self {
         Self { memory: Memory::Latched, ..Self::default() }

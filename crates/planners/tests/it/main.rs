@@ -1,6 +1,7 @@
 //! The planners in scenes: the paper's four simulations, the findings, the negative controls, the
 //! conformance kit.
 
+mod boundary;
 mod conformance;
 mod controls;
 mod figures;

@@ -5,7 +5,7 @@ use crate::timing::Stopwatch;
 use crate::{files, headline, manifest};
 use campaign::{Error, Folder, Plan, RowSink};
 use planner_api::Registry;
-use record::RunRow;
+use record::{Outcome, RunRow};
 use report::{Card, Compared};
 use std::fs;
 use std::path::Path;
@@ -18,6 +18,17 @@ pub(super) struct PlannerResult {
     summary: Summary,
     tallies: Tallies,
     link: String,
+}
+
+impl PlannerResult {
+    /// Whether a run of it ended its process or never returned: it is not run again outside an
+    /// engine.
+    pub(super) fn takes_its_process(&self) -> bool {
+        let strata = &self.summary.strata;
+        [Outcome::PlannerHung, Outcome::PlannerCrashed]
+            .iter()
+            .any(|outcome| strata.iter().any(|s| s.outcomes.get(outcome).is_some_and(|&k| k > 0)))
+    }
 }
 
 struct TableSink(table::ParquetSink);

@@ -1,5 +1,6 @@
 //! One file for each command.
 
+mod avoiding_cost;
 mod campaign;
 mod compare;
 mod engine;

@@ -1,0 +1,163 @@
+//! Planners that are broken on purpose, through simulator and judge: each is caught by the verdict
+//! that its `caught_by` names, and by none that does not apply.
+
+use campaign::plan::{Build, Plan};
+use campaign::worker::{Shop, Worker};
+use campaign::{CampaignFile, Overrides};
+use record::{Check, Outcome, RunRow, Status};
+use std::fs;
+use std::sync::atomic::AtomicU64;
+
+const HEAD_ON: u32 = 0;
+const CROSSING_STBD: u32 = 1;
+const CROSSING_PORT: u32 = 2;
+const ENCOUNTERS: u64 = 60;
+
+fn campaigns(file: &str) -> String {
+    let path = format!("{}/../campaigns/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+/// The default campaign for one planner, judged by the rule set for the controls.
+fn plan(planner: &str, options: &str) -> Plan {
+    let mut file: toml::Table = campaigns("quick").parse().unwrap();
+    let options: toml::Table = options.parse().unwrap();
+    let table = toml::Table::from_iter([(planner.to_owned(), toml::Value::Table(options))]);
+    file.insert("planner".into(), toml::Value::Table(table));
+    let overrides = Overrides {
+        planners: vec![planner.to_owned()],
+        rules: Some("controls-v1".to_owned()),
+        encounters: Some(ENCOUNTERS),
+        seed: None,
+    };
+    let build = Build {
+        tool_version: String::new(),
+        git_commit: String::new(),
+        git_clean: true,
+        engine: String::new(),
+        planners: String::new(),
+        cargo_lock_sha256: String::new(),
+        rustc: String::new(),
+    };
+    let rules = |name: &str| Ok(campaigns(&format!("rulesets/{name}")));
+    let file = CampaignFile::parse(&file.to_string(), "quick").unwrap();
+    file.resolve(&overrides, None, &planners::registry(), &rules, &build).unwrap().remove(0)
+}
+
+fn run(planner: &str, options: &str, stratum: u32) -> Vec<RunRow> {
+    let registry = planners::registry();
+    let plan = plan(planner, options);
+    let shop = Shop::new(&plan, &registry).unwrap();
+    let mut worker = Worker::new(&shop).unwrap();
+    let beat = AtomicU64::new(0);
+    (0..ENCOUNTERS).map(|j| worker.run(stratum, j, &beat).unwrap().row).collect()
+}
+
+/// How many runs fail this check.
+fn failed(rows: &[RunRow], check: Check) -> u64 {
+    rows.iter().filter(|row| row.check(check).status == Status::Fail).count() as u64
+}
+
+/// None of these checks has a reason to fail this planner.
+fn spared(rows: &[RunRow], checks: &[Check]) {
+    for &check in checks {
+        for row in rows {
+            assert_ne!(row.check(check).status, Status::Fail, "{}: {}", row.id, check.name());
+        }
+    }
+}
+
+/// What the registry says of the control names this verdict.
+fn names(planner: &str, verdict: &str) {
+    let registry = planners::registry();
+    let caught_by = registry.get(planner).unwrap().caught_by.as_deref().unwrap_or_default();
+    assert!(caught_by.contains(verdict), "{planner}: {caught_by}");
+}
+
+#[test]
+fn every_control_is_shown_here_or_in_lost_runs() {
+    let registry = planners::registry();
+    let controls = registry.entries().iter().filter(|entry| entry.caught_by.is_some());
+    let controls: Vec<&str> = controls.map(|entry| entry.name.as_str()).collect();
+    let shown = ["hold-course", "always-port", "sign-flip", "late", "blind-to-nearest", "dribble"];
+    let lost = ["nan", "panics", "spins", "aborts", "overflows"];
+    assert_eq!(controls, [&shown[..], &lost[..]].concat());
+}
+
+/// SAFE catches exactly the encounters whose miss distance is below what the rules ask for, and
+/// no check of a turn says anything.
+#[test]
+fn hold_course_and_blind_to_nearest_keep_the_miss_distance() {
+    for planner in ["hold-course", "blind-to-nearest"] {
+        names(planner, "SAFE");
+        for stratum in [HEAD_ON, CROSSING_STBD, CROSSING_PORT] {
+            let rows = run(planner, "", stratum);
+            for row in &rows {
+                let near_miss = row.nominal_cpa_hull_m.is_some_and(|m| m < 50.0);
+                let fails = row.check(Check::Safe).status == Status::Fail;
+                assert!(!near_miss || fails, "{planner} {}", row.id);
+            }
+            assert!(failed(&rows, Check::Safe) > 5, "{planner} {stratum}");
+            let turns = [Check::Turn, Check::R8Dribble, Check::R17Hold, Check::R17Port];
+            spared(&rows, &turns);
+        }
+    }
+}
+
+#[test]
+fn always_port_is_caught_by_the_side_of_its_turn() {
+    names("always-port", "TURN");
+    let rows = run("always-port", "", HEAD_ON);
+    assert!(failed(&rows, Check::Turn) > 5 && failed(&rows, Check::R14) > 5);
+    let clean = [Check::Safe, Check::R8Magnitude, Check::R8Dribble, Check::R8Time];
+    spared(&rows, &clean);
+    let rows = run("always-port", "", CROSSING_PORT);
+    assert!(failed(&rows, Check::Turn) > 10 && failed(&rows, Check::R17Port) > 5);
+    spared(&rows, &[Check::R15, Check::R8Dribble]);
+}
+
+/// Its mirror image, the seed planner with a latch, turns the right way in the same encounters.
+#[test]
+fn sign_flip_is_caught_by_turn_and_by_crossing_ahead() {
+    names("sign-flip", "TURN");
+    names("sign-flip", "R15");
+    let rows = run("sign-flip", "", HEAD_ON);
+    assert!(failed(&rows, Check::Turn) > 3, "{}", failed(&rows, Check::Turn));
+    spared(&rows, &[Check::Safe, Check::R15, Check::R17Port]);
+    let crossing = run("sign-flip", "", CROSSING_STBD);
+    assert!(failed(&crossing, Check::R15) > 3, "{}", failed(&crossing, Check::R15));
+    assert_eq!(failed(&run("zhuang-latched", "", CROSSING_STBD), Check::R15), 0);
+}
+
+#[test]
+fn late_is_caught_by_its_reaction_time() {
+    names("late", "R8-TIME");
+    let rows = run("late", "", CROSSING_STBD);
+    let late = failed(&rows, Check::R8Time);
+    assert!(late > ENCOUNTERS / 2, "{late}");
+    assert!(late > failed(&run("zhuang", "", CROSSING_STBD), Check::R8Time));
+    spared(&rows, &[Check::Turn, Check::R15, Check::R8Dribble]);
+}
+
+#[test]
+fn dribble_is_caught_by_its_small_alterations() {
+    names("dribble", "R8-MAG");
+    let dribbles = |planner: &str| -> u64 {
+        let strata = [HEAD_ON, CROSSING_STBD, CROSSING_PORT];
+        strata.map(|stratum| failed(&run(planner, "", stratum), Check::R8Dribble)).iter().sum()
+    };
+    let (dribble, zhuang) = (dribbles("dribble"), dribbles("zhuang"));
+    assert!(dribble > 5 && zhuang == 0, "{dribble} {zhuang}");
+}
+
+/// A run that the planner spoilt is an outcome of its own: no rule is failed by it.
+#[test]
+fn nan_and_panics_are_outcomes_and_no_verdicts() {
+    let lost = [("nan", Outcome::PlannerNonFinite), ("panics", Outcome::PlannerPanicked)];
+    for (planner, outcome) in lost {
+        names(planner, "outcome");
+        let rows = run(planner, "share = 1.0", HEAD_ON);
+        assert!(rows.iter().all(|row| row.outcome == outcome && row.unknown));
+        spared(&rows, &Check::ALL);
+    }
+}
