@@ -1,6 +1,6 @@
 //! The findings F1 to F22 of the seed planner's specification that show at the planner itself.
-//! F15 is in `boundary`; F13 needs a target that alters and is shown through the simulator; F20 is a
-//! table in `docs/seed-planner.md`.
+//! F15 is in `boundary`; F13 needs a target that alters and is shown through the simulator; F20
+//! is a table in `docs/seed-planner.md`.
 
 use crate::figures::{fig_14, fig_15, fig_16, fig_16_mirrored};
 use crate::random::encounter;
