@@ -12,7 +12,11 @@ struct Cluster {
     open: u64,
     looked_at: u64,
     worst: Option<(f64, String)>,
+    first: Vec<String>,
 }
+
+/// Failures that are so few are listed, all of them.
+const LISTED: usize = 20;
 
 impl Cluster {
     /// Adds a run; the smallest `worth` among the failures is the worst one.
@@ -21,6 +25,9 @@ impl Cluster {
             Status::NotApplicable | Status::NotEvaluated => return,
             Status::Fail => {
                 self.fail += 1;
+                if self.first.len() <= LISTED {
+                    self.first.push(row.id.to_string());
+                }
                 if self.worst.as_ref().is_none_or(|(least, _)| worth < *least) {
                     self.worst = Some((worth, row.id.to_string()));
                 }
@@ -48,6 +55,7 @@ pub(crate) fn print(dirs: &[String]) -> anyhow::Result<()> {
         let mut clusters: BTreeMap<(String, String), Cluster> = BTreeMap::new();
         each_row(dir, |row| add(row, &mut clusters))?;
         println!("\n`{}`\n", planner(dir)?);
+        let few = |cluster: &Cluster| (1..=LISTED).contains(&cluster.first.len());
         println!("| check or event | class | failed | warned | looked at | % [95 %] | worst |");
         println!("|---|---|---|---|---|---|---|");
         for ((what, class), cluster) in &clusters {
@@ -55,6 +63,11 @@ pub(crate) fn print(dirs: &[String]) -> anyhow::Result<()> {
             let Cluster { fail, warn, open, looked_at, .. } = cluster;
             let share = rate(*fail, *open, *looked_at);
             println!("| {what} | {class} | {fail} | {warn} | {looked_at} | {share} | `{id}` |");
+        }
+        for ((what, class), cluster) in clusters.iter().filter(|((_, class), _)| class != "all") {
+            if few(cluster) {
+                println!("\n{what}, {class}: {}", cluster.first.join(", "));
+            }
         }
     }
     Ok(())
