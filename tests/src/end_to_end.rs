@@ -1,7 +1,8 @@
 //! The binary on a small campaign, and what it wrote.
 
-use crate::support::{json, rows, run_ok};
+use crate::support::{json, rows, run_ok, seatrial};
 use std::fs;
+use std::process::Stdio;
 
 /// One run of the built-in campaign in an empty folder, as after `cargo install`.
 #[test]
@@ -47,6 +48,23 @@ fn a_small_campaign_writes_every_file_that_it_promises() {
     let counted: u64 =
         strata.iter().map(|stratum| stratum["collision"]["k"].as_u64().unwrap()).sum();
     assert_eq!(collisions, counted, "summary and table agree");
+}
+
+/// `seatrial campaign | head -0`: nobody reads what it prints, and its result is the files.
+#[test]
+fn a_reader_that_leaves_early_costs_nothing_but_the_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = seatrial(folder.path())
+        .args(["campaign", "quick", "--encounters", "1"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(folder.path().join("reports/quick-zhuang/report.html").is_file());
 }
 
 /// Any encounter can be run again alone and gives the stored bits.

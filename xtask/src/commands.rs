@@ -45,7 +45,7 @@ const OWN: &[(&str, &str)] = &[
 pub(crate) fn help() -> String {
     let mut text = String::from(
         "cargo xtask COMMAND [ARGS...]\n\n\
-         Commands of the product (each has its own --help; they are built in release first,\n\
+         Commands of the product (each has its own --help; they are built optimised first,\n\
          which takes some minutes the first time and seconds later):\n",
     );
     let list = |text: &mut String, commands: &[(&str, &str)]| {
@@ -88,11 +88,12 @@ pub(crate) fn dispatch(name: &str, rest: Vec<OsString>) -> Result<ExitCode> {
 fn product(name: &str, rest: &[OsString]) -> Result<ExitCode> {
     let root = root();
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
-    if !target.join("release").join("seatrial").exists() {
+    if !target.join("debug").join("seatrial").exists() {
         eprintln!("building the product first; from nothing this takes three to four minutes");
     }
     let mut command = cargo();
-    command.args(["run", "--release", "--locked", "--package", "seatrial"]);
+    command.args(["run", "--locked", "--package", "seatrial"]);
+    command.arg("--config").arg(root.join(".cargo/optimised.toml"));
     command.arg("--manifest-path").arg(root.join("Cargo.toml"));
     command.arg("--").arg(name).args(rest);
     become_command(command)

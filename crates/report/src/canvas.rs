@@ -7,6 +7,7 @@
 
 use crate::clip::{clip_path, clip_polygon, dashes};
 use crate::font;
+use crate::simplify::{TOLERANCE_PX, simplify};
 use geom::Vec2;
 use plotters::prelude::{DrawingBackend, FontStyle, RGBColor, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -234,8 +235,9 @@ impl Sheet<'_> {
             return;
         }
         let style = pen.ink.style(pen.opacity, pen.width);
+        let points = simplify(points, TOLERANCE_PX);
         if pen.dash > 0.0 {
-            for piece in dashes(points, pen.dash) {
+            for piece in dashes(&points, pen.dash) {
                 let piece = piece.iter().map(|p| px(p.x, p.y)).collect::<Vec<_>>();
                 self.backend.draw_path(piece, &style).expect(IN_MEMORY);
             }

@@ -27,6 +27,7 @@ mod page;
 mod page_tables;
 mod plan_view;
 mod player;
+mod simplify;
 mod time_charts;
 mod wording;
 mod write;

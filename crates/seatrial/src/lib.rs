@@ -8,6 +8,8 @@
 //! }
 //! ```
 #![forbid(unsafe_code)]
+// `say!` survives a reader that leaves early
+#![deny(clippy::print_stdout)]
 
 mod build;
 mod cli;
@@ -20,6 +22,7 @@ mod manifest;
 mod obstacles;
 mod progress;
 mod rendering;
+mod say;
 mod sweep;
 mod timing;
 

@@ -9,6 +9,7 @@ pub mod check;
 pub mod contact;
 pub mod duty;
 pub mod ending;
+mod floor;
 pub mod hazard;
 pub mod hull;
 pub mod intent;
@@ -24,6 +25,7 @@ pub mod weather;
 pub mod world;
 
 pub use check::{SetupError, check};
+pub use floor::floor;
 pub use nominal::nominal;
 pub use peer::MakePeer;
 pub use vessel::{Limits, known_models, limits};

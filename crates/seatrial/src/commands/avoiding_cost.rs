@@ -5,6 +5,7 @@
 //! same bytes wherever they are made.
 
 use crate::files;
+use crate::say::say;
 use campaign::worker::{Run, Shop, Worker};
 use campaign::{Error, Plan};
 use planner_api::{Command, Mission, Planner, PlannerEntry, PlannerEvents, Registry, Situation};
@@ -52,9 +53,9 @@ pub(super) fn measure(
     text.push('\n');
     files::write(&out.join("timing.json"), text.as_bytes())?;
     if !quiet {
-        println!("{:20} {:>12} {:>18} {:>14}", "", "us per call", "extra distance, m", "time, s");
+        say!("{:20} {:>12} {:>18} {:>14}", "", "us per call", "extra distance, m", "time, s");
         for cost in &costs {
-            println!(
+            say!(
                 "{:20} {:>12.2} {:>18.0} {:>14.1}",
                 cost.planner,
                 cost.planning_us_per_call,

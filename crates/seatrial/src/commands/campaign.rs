@@ -4,6 +4,7 @@ use super::finish;
 use crate::cli::CampaignArgs;
 use crate::exit::Ended;
 use crate::progress::Progress;
+use crate::say::say;
 use crate::timing::Stopwatch;
 use crate::{build, embedded};
 use campaign::folder::Opened;
@@ -108,7 +109,7 @@ impl Job<'_> {
         let plan = self.plan;
         let quiet = self.args.quiet;
         if !quiet {
-            println!(
+            say!(
                 "campaign {}, planner {}, seed {}, {} encounters",
                 plan.campaign,
                 plan.planner.name,
@@ -120,7 +121,7 @@ impl Job<'_> {
             Opened::Ready(folder) => folder,
             Opened::Finished(folder) => {
                 if !quiet {
-                    println!("finished already: {}", folder.path().join("report.html").display());
+                    say!("finished already: {}", folder.path().join("report.html").display());
                 }
                 return finish::read_back(plan, &folder).map(Some);
             }
@@ -131,7 +132,7 @@ impl Job<'_> {
         stopwatch.lap("run");
         if self.args.shard.is_some() {
             if !quiet {
-                println!("part {}/{} is done in {}", shard.0, shard.1, folder.parts().display());
+                say!("part {}/{} is done in {}", shard.0, shard.1, folder.parts().display());
             }
             return Ok(None);
         }

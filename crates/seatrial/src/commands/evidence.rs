@@ -2,6 +2,7 @@
 
 use crate::exit::Ended;
 use crate::rendering::Rendering;
+use crate::say::say;
 use crate::{build, files};
 use campaign::{Error, Folder, Plan};
 use evidence::{EvidenceError, Files, Gathered, PackInput, RESULT, STATEMENT};
@@ -52,7 +53,7 @@ pub(super) fn run(
     if let Some(key) = key {
         evidence::sign(&out.join(STATEMENT), key).map_err(failed)?;
     }
-    println!("pack: {} ({} files)", out.display(), files::below(out)?.len());
+    say!("pack: {} ({} files)", out.display(), files::below(out)?.len());
     Ok(Ended::Done)
 }
 
@@ -123,7 +124,7 @@ fn same_report(folder: &Path, pack: &Files) -> Result<(), Error> {
     let path = folder.join("report.html");
     let there = fs::read(&path).map_err(Error::io("read", &path))?;
     if pack.get(&format!("{RESULT}/report.html")) != Some(&there) {
-        println!(
+        say!(
             "note: this build renders the report otherwise than the one that made it; the pack \
              has the new one"
         );
@@ -147,7 +148,7 @@ fn print_pdf(out: &Path) -> Result<(), Error> {
         status.is_ok_and(|status| status.success()) && pdf.exists()
     });
     if !printed {
-        println!(
+        say!(
             "note: no evidence.pdf: none of {} could print it; evidence.html has the same content",
             BROWSERS.join(", ")
         );

@@ -1,6 +1,7 @@
 //! From parts to files: the table, the summary, the report, the manifest.
 
 use crate::rendering::{Rendering, card};
+use crate::say::{say, say_text};
 use crate::timing::Stopwatch;
 use crate::{files, headline, manifest};
 use campaign::{Error, Folder, Plan, RowSink};
@@ -70,9 +71,9 @@ pub(super) fn finish(
     files::write(&dir.join("timing.json"), timing.as_bytes())?;
     folder.end()?;
     if !quiet {
-        print!("{}", headline::table(&rendering.summary, headline::terminal_columns()));
-        println!("root digest {}", finished.root_digest);
-        println!("report: {}", dir.join("report.html").display());
+        say_text!("{}", headline::table(&rendering.summary, headline::terminal_columns()));
+        say!("root digest {}", finished.root_digest);
+        say!("report: {}", dir.join("report.html").display());
     }
     let link = link(dir);
     let Rendering { card, summary, tallies, .. } = rendering;
@@ -116,7 +117,7 @@ pub(super) fn comparison(out: &Path, results: &[PlannerResult], quiet: bool) -> 
         .collect();
     report::write_comparison(out, &columns).map_err(|e| Error::Fault(format!("failed to {e}")))?;
     if !quiet {
-        println!("comparison: {}", out.join("comparison.html").display());
+        say!("comparison: {}", out.join("comparison.html").display());
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use crate::cli::GateArgs;
 use crate::exit::Ended;
 use crate::progress::Progress;
+use crate::say::{say, say_text};
 use crate::{build, embedded};
 use campaign::{Error, Plan};
 use gate::child::Launch;
@@ -89,14 +90,14 @@ impl Job<'_> {
         let attempt = ledger.attempt(&series, &key);
         let declared = self.spec.gate_plan(&draft.strata, attempt, &[])?;
         let feasibility = declared.feasibility().map_err(|e| Error::input(e.to_string()))?;
-        println!(
+        say!(
             "gate {}: {candidate} against {baseline}, seed {}, attempt {attempt} of `{series}`, at \
              most {} pairs",
             self.spec.file.name,
             key.seed(),
             feasibility.cap
         );
-        println!("  {}", gate::text::expectation(&feasibility));
+        say!("  {}", gate::text::expectation(&feasibility));
 
         let threads = super::campaign::threads(self.args.threads)?;
         let mine = Launch {
@@ -159,7 +160,7 @@ impl Job<'_> {
             new_failures: paired.new_failures,
         };
         self.write(&report)?;
-        print!("{}", gate::text::terminal(&report, &self.out.display().to_string()));
+        say_text!("{}", gate::text::terminal(&report, &self.out.display().to_string()));
         Ok(match gate::run::exit_code(verdict) {
             0 => Ended::Done,
             1 => Ended::Failed,

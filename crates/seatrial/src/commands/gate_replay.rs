@@ -1,6 +1,7 @@
 //! `gate --replay`: one encounter of a gate again, under both planners, with a picture of each.
 
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::{Error, worker};
 use gate::GateReport;
 use planner_api::Registry;
@@ -27,18 +28,18 @@ pub(super) fn run(folder: &Path, id: &str, registry: Registry) -> Result<Ended, 
     let registry = super::with_outside(registry, &names)?;
     for (arm, side) in [("baseline", &report.baseline), ("candidate", &report.candidate)] {
         if side.asked.starts_with("git:") {
-            println!("{arm} {}: lives in another build and is not run here", side.asked);
+            say!("{arm} {}: lives in another build and is not run here", side.asked);
             continue;
         }
         let run = worker::run_alone(&side.plan, &registry, &id)?;
-        println!("{arm} {}: {}, digest {}", side.asked, run.row.outcome.name(), run.row.digest);
+        say!("{arm} {}: {}, digest {}", side.asked, run.row.outcome.name(), run.row.digest);
         if let Some(cpa_m) = run.row.cpa_hull_m {
-            println!("  closest {cpa_m:.1} m from hull to hull");
+            say!("  closest {cpa_m:.1} m from hull to hull");
         }
         for verdict in &run.judgement.verdicts {
             if verdict.status == Status::Fail {
                 let sentence = verdict.sentence.as_deref().unwrap_or(&verdict.detail);
-                println!("  fail {}: {sentence}", verdict.check.title());
+                say!("  fail {}: {sentence}", verdict.check.title());
             }
         }
         let pictures = folder.join("replay");
@@ -46,7 +47,7 @@ pub(super) fn run(folder: &Path, id: &str, registry: Registry) -> Result<Ended, 
         let picture = pictures.join(format!("{}-{arm}.svg", id.file_stem()));
         let case = crate::rendering::case(&side.plan, run);
         report::draw_case(&picture, &case).map_err(|e| Error::Fault(format!("failed to {e}")))?;
-        println!("  picture: {}", picture.display());
+        say!("  picture: {}", picture.display());
     }
     Ok(Ended::Done)
 }

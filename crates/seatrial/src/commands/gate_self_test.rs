@@ -2,6 +2,7 @@
 
 use crate::cli::GateArgs;
 use crate::exit::Ended;
+use crate::say::say;
 use crate::{build, embedded};
 use campaign::{Error, Plan};
 use gate::child::Launch;
@@ -57,21 +58,25 @@ pub(super) fn run(args: &GateArgs, spec: &GateSpec, registry: Registry) -> Resul
         gate: spec.gate_plan(&mine.strata, 1, &[])?,
         events: spec.events(),
         near_m: spec.near_m(),
-        tell: &|line| println!("  {line}"),
+        tell: &|line| say!("  {line}"),
     };
     let start = |plan: Plan| Child::start(launch.clone(), plan);
     let mut arm = start(mine.clone())?;
-    println!("self-test of the gate {}, baseline {baseline}, seed {seed}", spec.file.name);
+    say!("self-test of the gate {}, baseline {baseline}, seed {seed}", spec.file.name);
     let same = test.same(&mine, &mut arm, &mut start(mine.clone())?)?;
-    println!(
+    say!(
         "  {baseline} against itself: {} pairs, {} differ in a bit, {} breaks and fixes",
-        same.pairs, same.different, same.discordant
+        same.pairs,
+        same.different,
+        same.discordant
     );
     let mut other = start(self_test::independent(&mine))?;
     let uniform = test.uniform(Event::SafetyRadius, UNIFORM_SETS, &mut arm, &mut other)?;
-    println!(
+    say!(
         "  on independent encounters: {} p-values, distance from uniform {:.3}, limit {:.3}",
-        uniform.sets, uniform.distance, uniform.limit
+        uniform.sets,
+        uniform.distance,
+        uniform.limit
     );
     let mut killings = Vec::new();
     for name in &names {
@@ -79,7 +84,7 @@ pub(super) fn run(args: &GateArgs, spec: &GateSpec, registry: Registry) -> Resul
         killings.push(test.kill(&mine, name, &mut arm, &mut candidate)?);
     }
     let (killed, of) = self_test::kill_rate(&killings);
-    println!("  {killed} of {of} negative controls and mutants were caught");
+    say!("  {killed} of {of} negative controls and mutants were caught");
     let holds = same.holds() && uniform.holds() && killed == of;
     let report = Report {
         schema: 1,
@@ -97,6 +102,6 @@ pub(super) fn run(args: &GateArgs, spec: &GateSpec, registry: Registry) -> Resul
         .map_err(|e| Error::Fault(format!("failed to encode the self-test: {e}")))?;
     json.push('\n');
     crate::files::write(&out.join("self-test.json"), json.as_bytes())?;
-    println!("  result: {}", out.join("self-test.json").display());
+    say!("  result: {}", out.join("self-test.json").display());
     Ok(if holds { Ended::Done } else { Ended::Failed })
 }

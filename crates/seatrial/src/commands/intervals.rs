@@ -1,6 +1,7 @@
 //! `intervals`: the exact binomial bounds against a file of known answers.
 
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::Error;
 use std::fs;
 use std::path::Path;
@@ -14,7 +15,7 @@ pub(super) fn run(file: &Path) -> Result<Ended, Error> {
     let report = stats::check_intervals(&text)
         .map_err(|e| Error::input(format!("{}: {e}", file.display())))?;
     let passes = report.relative_error_max <= RELATIVE_ERROR_MAX;
-    println!(
+    say!(
         "{} rows; largest relative error {:.2e} ({} bound, line {}), {} {RELATIVE_ERROR_MAX:e}",
         report.rows,
         report.relative_error_max,

@@ -7,6 +7,7 @@
 use crate::cli::JudgeArgs;
 use crate::exit::Ended;
 use crate::files;
+use crate::say::{say, say_text};
 use crate::sweep::{Sweep, Values};
 use campaign::plan::RulesChoice;
 use campaign::rejudge::{Rejudge, Stored};
@@ -67,10 +68,10 @@ impl Job<'_> {
         files::write(&out.join("summary.json"), summary.to_json().as_bytes())?;
         files::write(&out.join("rules.toml"), rules.text.as_bytes())?;
         if !self.quiet {
-            println!("rules {} ({}) over {}", rules.name, &rules.hash[..12], self.shown());
-            print!("{}", crate::headline::table(summary, crate::headline::terminal_columns()));
-            println!("every run gave its stored digest; root digest {}", summary.root_digest);
-            println!("table: {}", out.join("runs.parquet").display());
+            say!("rules {} ({}) over {}", rules.name, &rules.hash[..12], self.shown());
+            say_text!("{}", crate::headline::table(summary, crate::headline::terminal_columns()));
+            say!("every run gave its stored digest; root digest {}", summary.root_digest);
+            say!("table: {}", out.join("runs.parquet").display());
         }
         Ok(Ended::Done)
     }
@@ -95,8 +96,8 @@ impl Job<'_> {
         let path = out.join(format!("sweep-{}.json", values.key));
         files::write(&path, sweep.to_json().as_bytes())?;
         if !self.quiet {
-            print!("{}", sweep.table());
-            println!("with bounds, and for each stratum: {}", path.display());
+            say_text!("{}", sweep.table());
+            say!("with bounds, and for each stratum: {}", path.display());
         }
         Ok(Ended::Done)
     }

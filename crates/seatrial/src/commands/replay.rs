@@ -1,6 +1,7 @@
 //! `replay`: one encounter of a result again, alone, and whether it gives the same bits.
 
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::{Error, Folder, worker};
 use planner_api::Registry;
 use record::{EncounterId, Status};
@@ -18,22 +19,22 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
         .map_err(|e| Error::input(format!("failed to {e}")))?
         .ok_or_else(|| Error::input(format!("{} has no row {id}", table.display())))?;
     if matches!(stored.outcome, record::Outcome::PlannerHung | record::Outcome::PlannerCrashed) {
-        println!(
+        say!(
             "{id}: {}; the planner takes its process with it, so it is not run here again",
             stored.outcome.name()
         );
         return Ok(Ended::Done);
     }
     let run = worker::run_alone(&plan, &registry, &id)?;
-    println!("{id}: {}, digest {}", run.row.outcome.name(), run.row.digest);
+    say!("{id}: {}, digest {}", run.row.outcome.name(), run.row.digest);
     for verdict in &run.judgement.verdicts {
         if matches!(verdict.status, Status::Fail | Status::Warn) {
             let sentence = verdict.sentence.as_deref().unwrap_or(&verdict.detail);
-            println!("  {} {}: {sentence}", verdict.status.name(), verdict.check.title());
+            say!("  {} {}: {sentence}", verdict.status.name(), verdict.check.title());
         }
     }
     for d in run.disagreements.iter().flatten() {
-        println!(
+        say!(
             "  the judges disagree on {}, target {}: {} {}, and the second finds {:?}",
             d.check.title(),
             d.target,
@@ -47,11 +48,11 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
     let picture = pictures.join(format!("{}.svg", id.file_stem()));
     let case = crate::rendering::case(&plan, run);
     report::draw_case(&picture, &case).map_err(|e| Error::Fault(format!("failed to {e}")))?;
-    println!("  picture: {}", picture.display());
+    say!("  picture: {}", picture.display());
     if case.row.digest == stored.digest {
-        println!("  the same bits as stored");
+        say!("  the same bits as stored");
         return Ok(Ended::Done);
     }
-    println!("  NOT the same bits: stored {}", stored.digest);
+    say!("  NOT the same bits: stored {}", stored.digest);
     Ok(Ended::Failed)
 }

@@ -2,6 +2,7 @@
 
 use super::finish;
 use crate::exit::Ended;
+use crate::say::say;
 use crate::timing::Stopwatch;
 use campaign::part::PartKey;
 use campaign::shards::Shards;
@@ -16,15 +17,15 @@ pub(super) fn missing(dir: &Path, further: &[PathBuf], of: Option<u64>) -> Resul
     for key in shards.missing() {
         count += 1;
         if of.is_none() {
-            println!("{}", shown(&shards.plan, key));
+            say!("{}", shown(&shards.plan, key));
         }
     }
     if let Some(of) = of.filter(|_| count > 0) {
-        println!("{}", ranges(&shards.missing_shards(of)));
+        say!("{}", ranges(&shards.missing_shards(of)));
     }
     let there = shards.parts.len();
     if count == 0 {
-        println!("all {there} parts are there");
+        say!("all {there} parts are there");
         return Ok(Ended::Done);
     }
     Err(Error::Incomplete(format!("{count} of {} parts are missing", count + there)))

@@ -7,6 +7,7 @@
 use crate::cli::SlurmArgs;
 use crate::exit::Ended;
 use crate::files;
+use crate::say::say;
 use campaign::Error;
 use std::fs;
 use std::path::Path;
@@ -63,7 +64,7 @@ pub(super) fn run(args: &SlurmArgs) -> Result<Ended, Error> {
     ] {
         files::write(&out.join(name), text.as_bytes())?;
     }
-    println!("submit with: sh {}", quoted(&out.join("shard-submit.sh").to_string_lossy()));
+    say!("submit with: sh {}", quoted(&out.join("shard-submit.sh").to_string_lossy()));
     Ok(Ended::Done)
 }
 

@@ -6,49 +6,54 @@
 
 use crate::embedded;
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::{CampaignFile, Error, Overrides};
-use geom::{HullOutline, Vec2, unit};
+use geom::HullOutline;
 use planner_api::Registry;
 use record::{Digest, Encounter, Judgement, RunUntil, Trace, Vessel};
-use sim::vessel::{Helm, Model, State};
 use std::hint::black_box;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
 const DURATION_S: f64 = 1200.0;
 const VESSEL: &str = "viknes";
+/// Rounds of the comparison of one thread with several.
+const ROUNDS: usize = 5;
 
 pub(super) fn run(encounters: u64, registry: &Registry) -> Result<Ended, Error> {
     if encounters == 0 {
         return Err(Error::input("--encounters 0 measures nothing; ask for at least 1"));
     }
     let bench = Bench::new(encounters, registry)?;
-    let mut stages = bench.stages()?;
-    let floor_s = stages.pop().map_or(0.0, |(_, seconds)| seconds);
+    let (floor_s, stages) = bench.stages(Floor::Measured)?;
     let total_s: f64 = stages.iter().map(|(_, seconds)| seconds).sum();
     let per_s = |seconds: f64| encounters as f64 / seconds;
-    println!(
+    say!(
         "{encounters} encounters of 20 simulated minutes, two 3-DOF vessels, step {} s",
         bench.step_s
     );
-    println!("one core       {:>8.0} encounters/s", per_s(total_s));
-    println!(
-        "floor          {:>8.0} encounters/s (the same vessels in a bare loop)",
-        per_s(floor_s)
-    );
-    println!("cost           {:>8.2} times the floor's", total_s / floor_s);
+    say!("one core       {:>8.0} encounters/s", per_s(total_s));
+    say!("floor          {:>8.0} encounters/s (the same vessels in a bare loop)", per_s(floor_s));
+    say!("cost           {:>8.2} times the floor's", total_s / floor_s);
     for (stage, seconds) in &stages {
-        println!("  {stage:12} {:>8.1} %", 100.0 * seconds / total_s);
+        say!("  {stage:12} {:>8.1} %", 100.0 * seconds / total_s);
     }
-    let one_s = bench.wall(1)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let all_s = bench.wall(cores)?;
-    println!(
-        "{cores} threads      {:>8.0} encounters/s, {:.2} times one thread's",
+    let (one_s, all_s) = bench.scaling(cores)?;
+    say!(
+        "{cores} threads      {:>8.0} encounters/s, {:.2} times one thread's {:.0}",
         cores as f64 * per_s(all_s),
-        cores as f64 * one_s / all_s
+        cores as f64 * one_s / all_s,
+        per_s(one_s)
     );
     Ok(Ended::Done)
+}
+
+/// Whether the bare loop is run beside each encounter.
+#[derive(Clone, Copy, PartialEq)]
+enum Floor {
+    Measured,
+    LeftOut,
 }
 
 struct Bench<'a> {
@@ -86,18 +91,20 @@ impl<'a> Bench<'a> {
         Ok(Self { encounters: encounters?, entry, rules, step_s: plan.run.step_s })
     }
 
-    /// Seconds of each stage over all encounters on one core, the floor last.
-    fn stages(&self) -> Result<Vec<(&'static str, f64)>, Error> {
+    /// Seconds of the floor and of each stage over all encounters on one core.
+    fn stages(&self, floor: Floor) -> Result<(f64, Vec<(&'static str, f64)>), Error> {
         let mut planner =
             (self.entry.make)(&self.entry.options).map_err(|e| Error::input(e.to_string()))?;
         let mut scratch = sim::Scratch::default();
         let mut judge = rules::Judge::new(self.rules.clone());
         let beat = AtomicU64::new(0);
-        let mut spent = [0.0; 6];
+        let (mut floor_s, mut spent) = (0.0, [0.0; 5]);
         for encounter in &self.encounters {
             // every stage of one encounter, then the next, so that drift of the machine's speed
             // falls on all of them alike
-            let (floor_s, ()) = timed(|| bare(encounter));
+            if floor == Floor::Measured {
+                floor_s += timed(|| black_box(sim::floor(encounter))).0;
+            }
             let (run_s, mut trace) =
                 timed(|| sim::run(encounter, planner.as_mut(), &mut scratch, &beat));
             let (nominal_s, nominal) = timed(|| sim::nominal(encounter));
@@ -106,22 +113,30 @@ impl<'a> Bench<'a> {
             let (judge_s, judged): (f64, Judgement) = timed(|| judge.judge(&trace));
             let (row_s, row) = timed(|| campaign::row::of_run(encounter, &trace, digest, &judged));
             black_box::<(Trace, _)>((trace, row));
-            for (sum, seconds) in
-                spent.iter_mut().zip([run_s, nominal_s, digest_s, judge_s, row_s, floor_s])
-            {
-                *sum += seconds;
-            }
+            let seconds = [run_s, nominal_s, digest_s, judge_s, row_s];
+            spent.iter_mut().zip(seconds).for_each(|(sum, seconds)| *sum += seconds);
         }
-        let names = ["run", "nominal", "digest", "verdicts", "row", "floor"];
-        Ok(names.into_iter().zip(spent).collect())
+        let names = ["run", "nominal", "digest", "verdicts", "row"];
+        Ok((floor_s, names.into_iter().zip(spent).collect()))
+    }
+
+    /// Wall-clock seconds of one thread, and of each of `threads` at once, for all encounters:
+    /// the least of some rounds that take turns, since other work only ever adds to a time.
+    fn scaling(&self, threads: usize) -> Result<(f64, f64), Error> {
+        let mut least = (f64::INFINITY, f64::INFINITY);
+        for _ in 0..ROUNDS {
+            least = (least.0.min(self.wall(1)?), least.1.min(self.wall(threads)?));
+        }
+        Ok(least)
     }
 
     /// Wall-clock seconds in which each of `threads` threads does all encounters.
     fn wall(&self, threads: usize) -> Result<f64, Error> {
         let started = now();
         std::thread::scope(|scope| {
-            let workers: Vec<_> =
-                (0..threads).map(|_| scope.spawn(|| self.stages().map(drop))).collect();
+            let workers: Vec<_> = (0..threads)
+                .map(|_| scope.spawn(|| self.stages(Floor::LeftOut).map(drop)))
+                .collect();
             workers.into_iter().try_for_each(|worker| match worker.join() {
                 Ok(ended) => ended,
                 Err(_) => Err(Error::Fault("a measuring thread panicked".to_owned())),
@@ -129,29 +144,6 @@ impl<'a> Bench<'a> {
         })?;
         Ok(started.elapsed().as_secs_f64())
     }
-}
-
-/// Own ship turning as in an avoidance, the target straight ahead, nothing else.
-fn bare(encounter: &Encounter) {
-    let Some(model) = Model::of(&encounter.own.vessel) else { return };
-    let own = &encounter.own.start;
-    let other = &encounter.targets[0].start;
-    let mut ships = [own, other].map(|s| State::ahead(s.position_m, s.psi_rad, s.speed_mps));
-    let run = &encounter.run;
-    let beats = (run.duration_s_max / run.beat_s) as usize;
-    let steps = (run.beat_s / run.step_s).round() as usize;
-    let ahead = |s: &record::Motion| Helm {
-        psi_rad: s.psi_rad,
-        direction: unit(s.psi_rad),
-        speed_mps: s.speed_mps,
-    };
-    let helms = [ahead(own), ahead(other)];
-    for _ in 0..beats * steps {
-        for (ship, helm) in ships.iter_mut().zip(&helms) {
-            *ship = model.step(ship, helm, Vec2::zeros(), run.step_s);
-        }
-    }
-    black_box(ships);
 }
 
 #[expect(clippy::disallowed_methods, reason = "this command measures wall-clock time")]

@@ -5,6 +5,7 @@ use super::evidence::{failed, make};
 use crate::build;
 use crate::exit::Ended;
 use crate::rendering::takes_process;
+use crate::say::say;
 use campaign::worker::{Shop, Worker};
 use campaign::{Error, Plan};
 use evidence::{
@@ -37,19 +38,19 @@ pub(super) struct Wanted<'a> {
 pub(super) fn run(wanted: &Wanted<'_>, registry: Registry) -> Result<Ended, Error> {
     let pack = evidence::read_all(wanted.pack).map_err(failed)?;
     let (mut problems, manifest) = evidence::inspect(&pack);
-    println!("files: {} read, {} problems", pack.len(), problems.len());
+    say!("files: {} read, {} problems", pack.len(), problems.len());
     let signature = evidence::check_signature(
         pack.get(STATEMENT).map_or(&[], Vec::as_slice),
         pack.get(SIGNATURE).map(Vec::as_slice),
         wanted.key,
     );
     match signature {
-        SignatureState::Good => println!("signature: good"),
+        SignatureState::Good => say!("signature: good"),
         SignatureState::Unsigned => {
-            println!("signature: none; who can write the folder could have made all of it anew")
+            say!("signature: none; who can write the folder could have made all of it anew")
         }
         SignatureState::NotChecked => {
-            println!("signature: there, not checked; give the public key with --key");
+            say!("signature: there, not checked; give the public key with --key");
         }
         SignatureState::Bad(why) => {
             problems.push(Problem { path: SIGNATURE.to_owned(), what: why });
@@ -58,12 +59,12 @@ pub(super) fn run(wanted: &Wanted<'_>, registry: Registry) -> Result<Ended, Erro
     if let (true, Some(manifest)) = (problems.is_empty(), manifest) {
         problems = content(wanted, &pack, &manifest, registry)?;
     } else {
-        println!("not made again, not run again: the files are not whole");
+        say!("not made again, not run again: the files are not whole");
     }
     for problem in &problems {
-        println!("  {problem}");
+        say!("  {problem}");
     }
-    println!("verify: {}", if problems.is_empty() { "ok" } else { "FAILED" });
+    say!("verify: {}", if problems.is_empty() { "ok" } else { "FAILED" });
     Ok(if problems.is_empty() { Ended::Done } else { Ended::Failed })
 }
 
@@ -90,7 +91,7 @@ fn content(
         differs("result/runs.parquet", "its rows do not have the root digest of the manifest");
     }
     if planner_host::outside(&plan.planner.name).is_some() {
-        println!(
+        say!(
             "not run again: planner {} is a program from outside. These rest on the record alone: \
              every outcome, distance and verdict, and with them report, summary and findings",
             plan.planner.name
@@ -100,7 +101,7 @@ fn content(
     if manifest.build.engine != build::build().engine
         || manifest.build.planners != build::build().planners
     {
-        println!(
+        say!(
             "note: the pack was made by engine {} and planners {}; this tool has others, so \
              digests may differ for that reason alone",
             &manifest.build.engine[..12],
@@ -120,7 +121,7 @@ fn rendered(
     table: &Path,
 ) -> Result<Vec<Problem>, Error> {
     if manifest.renderer != build::RENDERER {
-        println!(
+        say!(
             "not rendered again: the pack was rendered by sources {}, this tool has {}; verify \
              with the build of the manifest",
             &manifest.renderer[..12.min(manifest.renderer.len())],
@@ -135,7 +136,7 @@ fn rendered(
         .collect();
     let again = make(plan, registry, table, &given)?;
     let problems = evidence::compare(pack, &again);
-    println!("made again from the rows: {} files, {} differ", again.len(), problems.len());
+    say!("made again from the rows: {} files, {} differ", again.len(), problems.len());
     let extra = pack.keys().filter(|p| !again.contains_key(*p) && !VOLATILE.contains(&p.as_str()));
     let extra = extra.map(|path| Problem {
         path: path.clone(),
@@ -181,7 +182,7 @@ fn run_again(
     let differing = differing(plan, registry, &rows)?;
     let sampled = rows.iter().filter(|(_, sampled)| *sampled).count() as u64;
     let bad = differing.iter().filter(|(_, sampled)| *sampled).count() as u64;
-    println!(
+    say!(
         "run again: {} encounters, {} failures of {} and a sample of {sampled} (seed {seed}); \
          {} differ",
         rows.len(),
@@ -190,12 +191,12 @@ fn run_again(
         differing.len()
     );
     if lost > 0 {
-        println!("  not run again: {lost} in which the planner takes its process with it");
+        say!("  not run again: {lost} in which the planner takes its process with it");
     }
     if sampled > 0 {
         let upper = stats::clopper_pearson_upper(bad, sampled, 1.0 - CONFIDENCE)
             .map_err(|e| Error::Fault(e.to_string()))?;
-        println!(
+        say!(
             "  at {:.0} % confidence at most {:.3} % of all {} encounters could differ",
             100.0 * CONFIDENCE,
             100.0 * if sampled == gathered.rows { bad as f64 / sampled as f64 } else { upper },
