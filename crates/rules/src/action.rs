@@ -26,7 +26,7 @@ pub(crate) struct Action {
     pub(crate) runs: Vec<TurnRun>,
     /// Speed runs likewise.
     pub(crate) speed_runs: Vec<SpeedRun>,
-    /// The run whose side counts: the first substantial one, else the first detectable one.
+    /// The run whose side counts: the first substantial one that is no way back, else the first.
     pub(crate) turn: Option<TurnRun>,
     /// When `turn` could be seen, seconds.
     pub(crate) turn_seen_s: Option<f64>,
@@ -137,8 +137,17 @@ impl Action {
 
     fn choose_turn(&mut self, life: &PairLife<'_>, own: &OwnSignals) {
         let m = &life.rules.manoeuvre;
-        let substantial = |run: &&TurnRun| run.size_rad.abs() >= m.substantial_turn_rad;
-        self.turn = self.runs.iter().find(substantial).or(self.runs.first()).copied();
+        let first = self.runs.first().copied();
+        let goes_back = |run: &TurnRun| {
+            first.is_some_and(|first| {
+                let beyond_rad = own.smooth_rad[run.end] - own.smooth_rad[first.edge];
+                let overshoots = beyond_rad * run.size_rad.signum() >= m.substantial_turn_rad;
+                returns_from(life, &first, run) && !overshoots
+            })
+        };
+        let acts =
+            |run: &&TurnRun| run.size_rad.abs() >= m.substantial_turn_rad && !goes_back(run);
+        self.turn = self.runs.iter().find(acts).or(self.runs.first()).copied();
         self.turn_seen_s = self.turn.map(|run| {
             // the smoothed rate rises before the ship turns: the heading itself says when
             let before = own.heading_rad[run.edge];
@@ -217,13 +226,7 @@ impl Action {
     /// Start of the first run back, once the pass is predicted clear or lies behind.
     fn first_return(&self, life: &PairLife<'_>) -> Option<usize> {
         let turn = self.turn?;
-        let back = |run: &&TurnRun| {
-            run.start > turn.start
-                && run.size_rad * turn.size_rad < 0.0
-                && (life.actual.tcpa_s(run.start).is_some_and(|t| t < 0.0)
-                    || !life.actual.dcpa_below(run.start, life.rules.distance.r_min_m))
-        };
-        self.runs.iter().find(back).map(|run| run.start)
+        self.runs.iter().find(|run| returns_from(life, &turn, run)).map(|run| run.start)
     }
 
     fn headings<'b>(&self, life: &PairLife<'_>, own: &'b OwnSignals) -> Offsets<'b> {
@@ -233,6 +236,15 @@ impl Action {
     fn speeds<'b>(&self, life: &PairLife<'_>, own: &'b OwnSignals) -> Offsets<'b> {
         Offsets::new(life, &own.departure_mps, self.departure_0_mps)
     }
+}
+
+/// Whether a run leads back from an earlier one: to the other side, when the pass was predicted
+/// clear or lay behind (section 5).
+fn returns_from(life: &PairLife<'_>, earlier: &TurnRun, run: &TurnRun) -> bool {
+    run.start > earlier.start
+        && run.size_rad * earlier.size_rad < 0.0
+        && (life.actual.tcpa_s(run.start).is_some_and(|t| t < 0.0)
+            || !life.actual.dcpa_below(run.start, life.rules.distance.r_min_m))
 }
 
 impl<'a> Offsets<'a> {

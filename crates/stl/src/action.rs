@@ -108,11 +108,16 @@ impl Action {
                 && run.start > action.start
                 && settled(&lives[target], run.start, params)
         };
-        // A turn back to the route is no action, however large (section 5).
-        let acts = |run: &&Run| {
-            run.change.abs() >= params.turn_action_rad
-                && !turns.first().is_some_and(|first| back_from(first, run))
+        // A turn back to the route is no action, however large (section 5), unless it goes on to be
+        // an alteration to the other side of what she held first.
+        let crosses = |first: &Run, run: &Run| {
+            let past = deviation.heading_rad[run.end] - deviation.heading_rad[first.start];
+            past * run.change.signum() >= params.turn_action_rad
         };
+        let way_back = |run: &Run| {
+            turns.first().is_some_and(|first| back_from(first, run) && !crosses(first, run))
+        };
+        let acts = |run: &&Run| run.change.abs() >= params.turn_action_rad && !way_back(run);
         let counted = turns.iter().find(acts).or_else(|| turns.first()).copied();
         let side = counted.map_or(0.0, |run| run.change.signum());
         let back = |run: &&Run| counted.is_some_and(|action| back_from(&action, run));

@@ -30,6 +30,34 @@ fn altering_in_stage_2_fails_and_a_small_yaw_warns() {
     expect(&slowed(4.6), Check::R17Hold, Warn, "UNSTEADY");
 }
 
+/// She slows before stage 2 and gains speed again in it: what counts is the speed at its entry.
+#[test]
+fn speed_is_held_against_that_at_the_entry_of_stage_2() {
+    let script = own(6.0).hold(70.0).speed_to(4.7, 0.2).hold(30.0).speed_to(6.0, 0.2).hold(60.0);
+    expect(&stand_on(script), Check::R17Hold, Fail, "FAIL-17AI");
+}
+
+/// Her mean heading is 10 degrees off for a second or two.
+#[test]
+fn a_departure_of_the_mean_heading_must_be_held() {
+    let pulse = |seconds: f64| {
+        let script = own(6.0).hold(100.0).turn(10.2, 10.0).hold(seconds).turn(-10.2, 10.0);
+        stand_on(script.hold(60.0))
+    };
+    expect(&pulse(30.0), Check::R17Hold, Warn, "UNSTEADY");
+    expect(&pulse(40.0), Check::R17Hold, Fail, "FAIL-17AI");
+}
+
+/// Own ship slows in stage 3: on the planned way the closest point is past by then, on the way
+/// that was gone it is not.
+#[test]
+fn she_may_act_as_long_as_the_other_really_comes_close() {
+    let script = own(6.0).hold(150.0).speed_to(4.8, 0.2).hold(800.0);
+    let other = target(1800.0, -2500.0, 90.0, 6.0);
+    let judgement = judge(&Scene::new(script, other));
+    expect(&judgement, Check::R17May, Pass, "HELD");
+}
+
 #[test]
 fn from_stage_3_on_she_may_act() {
     let acted = stand_on(own(6.0).hold(225.0).turn(60.0, 6.0));
