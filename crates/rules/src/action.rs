@@ -63,7 +63,8 @@ impl Action {
     ) -> Self {
         let to = life.passed.map_or(own.heading_rad.len() - 1, |passed| passed.k);
         let inside = |start: usize| start >= from && start <= to;
-        let runs: Vec<_> = turns.filter(|run| inside(run.start)).collect();
+        let runs = turns.filter(|run| inside(run.start));
+        let runs: Vec<_> = runs.skip_while(|run| leads_back(life, own, run)).collect();
         let speed_runs: Vec<_> = speeds.filter(|run| inside(run.start)).collect();
         let mut action = Self {
             window: (from.min(to), to),
@@ -238,13 +239,29 @@ impl Action {
     }
 }
 
+/// Whether a run leads back to the nominal heading from a departure too slow to be a run itself,
+/// when there is nothing left to avoid.
+fn leads_back(life: &PairLife<'_>, own: &OwnSignals, run: &TurnRun) -> bool {
+    let side = run.size_rad.signum();
+    let [before, after] = [run.edge, run.end].map(|k| own.smooth_rad[k] * side);
+    life.nominal.is_some()
+        && before < 0.0
+        && after < life.rules.manoeuvre.detectable_turn_rad
+        && settled(life, run.start)
+}
+
+/// Whether the pass is predicted clear, or lies behind.
+fn settled(life: &PairLife<'_>, k: usize) -> bool {
+    life.actual.tcpa_s(k).is_some_and(|t| t < 0.0)
+        || !life.actual.dcpa_below(k, life.rules.distance.r_min_m)
+}
+
 /// Whether a run leads back from an earlier one: to the other side, when the pass was predicted
 /// clear or lay behind (section 5).
 fn returns_from(life: &PairLife<'_>, earlier: &TurnRun, run: &TurnRun) -> bool {
     run.start > earlier.start
         && run.size_rad * earlier.size_rad < 0.0
-        && (life.actual.tcpa_s(run.start).is_some_and(|t| t < 0.0)
-            || !life.actual.dcpa_below(run.start, life.rules.distance.r_min_m))
+        && settled(life, run.start)
 }
 
 impl<'a> Offsets<'a> {

@@ -82,9 +82,11 @@ fn port_rad(case: &Case<'_>, from: usize, until: usize) -> f64 {
     case.action.held_offset_rad(case.life, case.own, -1.0, from..until.max(from))
 }
 
-/// The other was on the port side, forward of the overtaking sector, when the action began.
+/// The other was on the port side, forward of the overtaking sector, when the action to port began:
+/// where there is none, at the onset of risk.
 fn on_port_side(case: &Case<'_>) -> bool {
-    let k = case.action.turn.map_or(case.onset.k, |turn| turn.start);
+    let to_port = case.action.runs.iter().find(|run| run.size_rad < 0.0);
+    let k = to_port.map_or(case.onset.k, |run| run.start);
     let beta_rad = crate::risk::relative(&case.life.actual, k).beta_rad;
     beta_rad > -OVERTAKING_SECTOR_RAD && beta_rad < 0.0
 }

@@ -196,7 +196,7 @@ fn slow_runs(
 }
 
 /// Gaussian mean, the kernel cut at three standard deviations and at the ends of the track.
-fn smoothed(values: &[f64], deviation_s: f64, sample_s: f64) -> Vec<f64> {
+pub(crate) fn smoothed(values: &[f64], deviation_s: f64, sample_s: f64) -> Vec<f64> {
     let reach = (3.0 * deviation_s / sample_s).ceil();
     let reach = if reach > 0.0 { reach as usize } else { 0 };
     let weight = |i: usize| {

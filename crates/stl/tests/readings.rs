@@ -105,7 +105,9 @@ fn exactly_at_the_limit_is_undecided() {
 /// The mean heading shows a turn seconds before the ship made it.
 #[test]
 fn a_turn_made_in_the_second_of_detection_is_the_action() {
-    let mut trace = run(&own().turn(60, 20.0), &[ahead()], 300);
+    // Risk opens at 70 s.
+    let far = Script::straight(2600.0, 0.0, 180.0, 5.0);
+    let mut trace = run(&own().turn(60, 20.0), &[far], 400);
     trace.pairs[0].tracked_s = Some(60.0);
     assert_eq!(finding(&trace, Check::R14).status, Finding::Holds);
     assert_eq!(finding(&trace, Check::R8Magnitude).status, Finding::Holds);

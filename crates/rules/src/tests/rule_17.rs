@@ -48,14 +48,20 @@ fn a_departure_of_the_mean_heading_must_be_held() {
     expect(&pulse(40.0), Check::R17Hold, Fail, "FAIL-17AI");
 }
 
-/// Own ship slows in stage 3: on the planned way the closest point is past by then, on the way
-/// that was gone it is not.
+/// The moment needs a pass predicted below the minimum: a metre above it, acting in stage 3 is
+/// acting before she may.
 #[test]
-fn she_may_act_as_long_as_the_other_really_comes_close() {
-    let script = own(6.0).hold(150.0).speed_to(4.8, 0.2).hold(800.0);
-    let other = target(1800.0, -2500.0, 90.0, 6.0);
-    let judgement = judge(&Scene::new(script, other));
-    expect(&judgement, Check::R17May, Pass, "HELD");
+fn a_pass_predicted_above_the_minimum_gives_no_right_to_act() {
+    let script = own(6.0).hold(240.0).turn(60.0, 6.0).hold(500.0);
+    let trace = Scene::new(script, target(1800.0, -1950.0, 90.0, 6.0)).trace();
+    let planned_m = trace.nominal.as_ref().unwrap().minima[0].hull_m;
+    let by = |r_min_m: f64| judge_by(with("r_min_m", r_min_m), &trace);
+    let may = by(planned_m + 1.0);
+    expect(&may, Check::R17Hold, Pass, "");
+    expect(&may, Check::R17May, Pass, "ACTED");
+    let may_not = by(planned_m - 1.0);
+    expect(&may_not, Check::R17Hold, Fail, "FAIL-17AI");
+    expect(&may_not, Check::R17May, NotApplicable, "");
 }
 
 #[test]

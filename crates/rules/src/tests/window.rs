@@ -42,7 +42,7 @@ fn an_alteration_made_before_detection_does_not_count() {
 #[test]
 fn a_way_back_is_not_the_action() {
     let script = own(6.0).hold(45.0).turn(9.2, 3.0).hold(125.0).turn(-12.3, 3.0).hold(300.0);
-    let judgement = judge(&Scene::new(script, head_on()));
+    let judgement = judge(&Scene::new(script, target(2400.0, -20.0, 180.0, 6.0)));
     expect(&judgement, Check::Turn, Pass, "");
     expect(&judgement, Check::R8Magnitude, Warn, "SMALL");
     assert!(judgement.pairs[0].first_turn_rad.unwrap() > 0.0);
