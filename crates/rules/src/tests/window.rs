@@ -48,6 +48,15 @@ fn a_way_back_is_not_the_action() {
     assert!(judgement.pairs[0].first_turn_rad.unwrap() > 0.0);
 }
 
+/// A departure so slow that it is no run, and a brisk way back from it at the closest point.
+#[test]
+fn a_way_back_from_a_slow_departure_is_no_action() {
+    let script = own(6.0).hold(45.0).turn(-4.0, 0.4).hold(135.0).turn(4.0, 2.0).hold(300.0);
+    let judgement = judge(&Scene::new(script, target(2400.0, 120.0, 180.0, 6.0)));
+    expect(&judgement, Check::Turn, NotApplicable, "NO-TURN");
+    assert_eq!(judgement.pairs[0].first_turn_rad, None);
+}
+
 /// A yaw while the pass is predicted clear, and an alteration to the other side of the first
 /// course: that is no way back.
 #[test]
