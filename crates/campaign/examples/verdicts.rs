@@ -1,6 +1,6 @@
 //! Everything that both judges say of single encounters, with own ship's heading.
 //!
-//! `cargo run --release -p campaign --example verdicts -- campaigns/quick.toml zhuang 2223 STRATUM/J`
+//! `cargo run --release -p campaign --example verdicts -- campaigns/quick.toml zhuang 9 head_on/8`
 #![forbid(unsafe_code)]
 
 use campaign::judges::params;

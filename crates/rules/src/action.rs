@@ -146,8 +146,7 @@ impl Action {
                 returns_from(life, &first, run) && !overshoots
             })
         };
-        let acts =
-            |run: &&TurnRun| run.size_rad.abs() >= m.substantial_turn_rad && !goes_back(run);
+        let acts = |run: &&TurnRun| run.size_rad.abs() >= m.substantial_turn_rad && !goes_back(run);
         self.turn = self.runs.iter().find(acts).or(self.runs.first()).copied();
         self.turn_seen_s = self.turn.map(|run| {
             // the smoothed rate rises before the ship turns: the heading itself says when
@@ -259,9 +258,7 @@ fn settled(life: &PairLife<'_>, k: usize) -> bool {
 /// Whether a run leads back from an earlier one: to the other side, when the pass was predicted
 /// clear or lay behind (section 5).
 fn returns_from(life: &PairLife<'_>, earlier: &TurnRun, run: &TurnRun) -> bool {
-    run.start > earlier.start
-        && run.size_rad * earlier.size_rad < 0.0
-        && settled(life, run.start)
+    run.start > earlier.start && run.size_rad * earlier.size_rad < 0.0 && settled(life, run.start)
 }
 
 impl<'a> Offsets<'a> {

@@ -3,8 +3,8 @@
 //! A course run starts when the smoothed yaw rate reaches `q_on` and ends when it stays under half
 //! of that for a while, changes sign, or the ship stops; a peak or a plateau of the rate never ends
 //! one. Runs to one side with a short gap are one. A turn too slow for `q_on` is found by its size.
-//! Smoothing spreads a turn to seconds before it began; when a run began is therefore read from the
-//! heading itself, so that a turn made in the very second of detection lies in the window of action.
+//! Smoothing spreads a turn to seconds before it began; when a run began is read from the heading
+//! itself, so that a turn made in the very second of detection lies in the window of action.
 //! Reference: rules specification, section 5, which mends the segmentation of Hagen and Tengesdal.
 
 use crate::ruleset::RuleSet;

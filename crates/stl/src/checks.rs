@@ -254,8 +254,7 @@ impl<'a> Case<'a> {
         let last = action.turn_rad.len().saturating_sub(self.hold + 1);
         let held = |values: &[f64], side: f64, least: f64| {
             let seen = |x: &f64| side * x >= least;
-            (action.from..onset.min(last + 1))
-                .any(|k| values[k..=k + self.hold].iter().all(seen))
+            (action.from..onset.min(last + 1)).any(|k| values[k..=k + self.hold].iter().all(seen))
         };
         let p = self.params;
         [1.0, -1.0].into_iter().any(|side| {

@@ -121,7 +121,6 @@ fn a_ship_that_leaves_her_plan_before_an_overtaker_was_forced() {
     let fast = Script { speed_mps: 6.0, ..own() }.turn(10, 25.0).turn(74, -25.0);
     let mut trace = run(&fast, &[slow.clone().turn(60, -20.0)], 300);
     assert_eq!(finding(&trace, Check::R13).status, Finding::Holds);
-    trace.nominal.as_mut().unwrap().targets =
-        run(&fast, &[slow], 300).nominal.unwrap().targets;
+    trace.nominal.as_mut().unwrap().targets = run(&fast, &[slow], 300).nominal.unwrap().targets;
     assert_eq!(finding(&trace, Check::R13).status, Finding::Violated);
 }

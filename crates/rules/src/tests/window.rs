@@ -15,8 +15,7 @@ fn detected_at(t_s: f64, script: Script, other: Script) -> Judgement {
 /// before she saw the other.
 #[test]
 fn an_alteration_begun_in_the_second_of_detection_counts() {
-    let judgement =
-        detected_at(100.0, own(6.0).hold(100.0).turn(20.0, 5.0).hold(500.0), head_on());
+    let judgement = detected_at(100.0, own(6.0).hold(100.0).turn(20.0, 5.0).hold(500.0), head_on());
     expect(&judgement, Check::Turn, Pass, "");
     expect(&judgement, Check::R8Magnitude, Warn, "NOT-APPARENT");
     assert_ne!(judgement.status(Check::R14), Fail);
