@@ -224,7 +224,7 @@ impl Action {
     }
 
     /// Start of the first run back, once the pass is predicted clear or lies behind.
-    fn first_return(&self, life: &PairLife<'_>) -> Option<usize> {
+    pub(crate) fn first_return(&self, life: &PairLife<'_>) -> Option<usize> {
         let turn = self.turn?;
         self.runs.iter().find(|run| returns_from(life, &turn, run)).map(|run| run.start)
     }

@@ -86,7 +86,8 @@ impl Case<'_> {
             beta < 0.0 && beta > -ABAFT_THE_BEAM_RAD
         };
         // A run to starboard, such as the way back, says nothing of where she was.
-        let to_port = action.turns.iter().find(|run| run.change < 0.0);
+        let before_return = |run: &&Run| action.returns.is_none_or(|back| run.start < back);
+        let to_port = action.turns.iter().filter(before_return).find(|run| run.change < 0.0);
         if to_port.is_some_and(|run| !on_port(*run)) {
             return Claim::NotApplicable;
         }

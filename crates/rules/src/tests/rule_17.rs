@@ -115,6 +115,14 @@ fn not_to_port_for_a_ship_on_the_port_side() {
     expect(&give_way, Check::R17Port, NotApplicable, "");
 }
 
+/// She acts to starboard by right and turns back before the closest point, the other abaft her beam
+/// on the heading of the action: the rule was put to the test and kept.
+#[test]
+fn a_way_back_to_port_leaves_17c_applied() {
+    let script = own(6.0).hold(225.0).turn(75.0, 8.0).hold(50.0).turn(-75.0, 8.0);
+    expect(&stand_on(script), Check::R17Port, Pass, "");
+}
+
 #[test]
 fn a_conservative_rule_set_fails_port_in_stage_4_too() {
     let text = rules().text().replace("port_in_stage_4 = \"warn\"", "port_in_stage_4 = \"fail\"");
