@@ -178,19 +178,18 @@ fn disagreements(first: &Judgement, second: &[Robustness]) -> Vec<Disagreement> 
 /// Section 12: negative where the first judge says FAIL, positive where it says PASS or WARN. A
 /// robustness of 0 lies on the boundary and contradicts nothing; what has no formula is not asked.
 /// Rule 19(e) has none either: a failure of it alone says nothing of 19(d)(i) and (ii). Where the
-/// first judge found a failure and then took it back, because another class was within the doubt or
-/// because own ship had acted before there was any risk, its detail code says so: no formula looks
-/// at that, so what was found first is compared.
+/// first judge found a failure and took it back because another class is within the doubt, what was
+/// found first is compared: the second judge asks for the class that decides and for no other, and
+/// must have found the same failure.
 fn agree(verdict: &Verdict, finding: Finding) -> bool {
     use Status::{Fail, Inconclusive, NotApplicable, NotEvaluated, Pass, Warn};
     let only_19e = verdict.status == Fail && verdict.detail == "FAIL-19E";
-    let taken_back = verdict.status == Warn
-        && matches!(verdict.detail.as_ref(), "AMBIGUOUS" | "RESOLVED_EARLY" | "FORCED");
+    let status = if verdict.detail == "AMBIGUOUS" { Fail } else { verdict.status };
     match finding {
         Finding::NotEvaluated | Finding::Undecided => true,
-        Finding::Violated => (verdict.status == Fail && !only_19e) || taken_back,
-        Finding::Holds => matches!(verdict.status, Pass | Warn) || only_19e,
-        Finding::NotApplicable => matches!(verdict.status, NotApplicable | NotEvaluated),
-        Finding::Inconclusive => verdict.status == Inconclusive || only_19e,
+        Finding::Violated => status == Fail && !only_19e,
+        Finding::Holds => matches!(status, Pass | Warn) || only_19e,
+        Finding::NotApplicable => matches!(status, NotApplicable | NotEvaluated),
+        Finding::Inconclusive => status == Inconclusive || only_19e,
     }
 }

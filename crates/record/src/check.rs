@@ -33,6 +33,19 @@ macro_rules! checks {
     };
 }
 
+impl Check {
+    /// What the check needs beside the voyage and cannot do without: where it is missing the check
+    /// is not evaluated.
+    pub const fn needs(self) -> Option<&'static str> {
+        match self {
+            Self::R5R7 => Some("alerts that the planner declares"),
+            Self::R6 => Some("a declared stopping model, as does Rule 19(b)"),
+            Self::LastMinute => Some("the extra runs of the last-minute search"),
+            _ => None,
+        }
+    }
+}
+
 checks! {
     /// Minimum passing distance (Rules 8(d) and 16).
     Safe = "safe", "Passing distance (Rule 8(d))";

@@ -26,7 +26,8 @@ pub struct RunRow {
     pub weight: f64,
     /// Number of targets.
     pub targets: u8,
-    /// Class found by the judge for the pair that came closest; absent if risk never opened.
+    /// Class that decides, found by the judge for the pair that came closest; absent if risk never
+    /// opened.
     pub class: Option<EncounterClass>,
     /// Another class was within 2 degrees.
     pub ambiguous: bool,

@@ -162,8 +162,11 @@ pub struct PairFacts {
     pub target: u8,
     /// Onset of risk, seconds; absent if it never opened.
     pub risk_s: Option<f64>,
-    /// Class at onset, by the judge.
+    /// Class at onset that decides, by the judge: where another is within the doubt, the one that
+    /// Rules 13(c) and 14(c) prefer.
     pub class: Option<EncounterClass>,
+    /// Class at onset by the bearings alone, whatever the doubt.
+    pub class_by_bearings: Option<EncounterClass>,
     /// Role at onset.
     pub role: Role,
     /// Another class is reachable within 2 degrees.

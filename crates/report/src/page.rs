@@ -63,6 +63,7 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
         figures: general.iter().map(inline).collect(),
         findings: findings::lines(input, &whole.tally),
         rules: Check::ALL.into_iter().map(|check| rule_line(&whole.tally, check)).collect(),
+        onset: onset(&whole.tally),
         classes: classes(&whole.tally),
         avoiding: avoiding(&whole.summary),
         outcomes: outcomes(input, &whole),
@@ -123,6 +124,7 @@ struct View<'a> {
     figures: Vec<Figure>,
     findings: Vec<FindingLine>,
     rules: Vec<RuleLine>,
+    onset: String,
     classes: DataTable,
     avoiding: DataTable,
     outcomes: DataTable,
@@ -189,6 +191,8 @@ struct RuleLine {
     untested: bool,
     /// The check did not run at all.
     silent: bool,
+    /// What it cannot do without.
+    needs: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -305,7 +309,21 @@ fn rule_line(tally: &Tally, check: Check) -> RuleLine {
         bounds: bounds(&rate),
         untested: tally.n > 0 && rate.n == 0 && of(Status::NotEvaluated) < tally.n,
         silent: tally.n > 0 && of(Status::NotEvaluated) == tally.n,
+        needs: check.needs(),
     }
+}
+
+/// Where the judge took the onset of risk from.
+fn onset(tally: &Tally) -> String {
+    let actual = tally.collision_pairs.without_nominal;
+    let nominal = tally.n - actual;
+    format!(
+        "Onset of risk, class and role are those of the nominal track (own ship on its route, not \
+         avoiding) in {} runs, the same for every planner. {} runs have no nominal track: theirs \
+         are those of the voyage itself, which a planner can change by acting early.",
+        count(nominal),
+        count(actual)
+    )
 }
 
 fn unavoidable(whole: &Group) -> Option<String> {

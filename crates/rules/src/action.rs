@@ -26,7 +26,7 @@ pub(crate) struct Action {
     pub(crate) runs: Vec<TurnRun>,
     /// Speed runs likewise.
     pub(crate) speed_runs: Vec<SpeedRun>,
-    /// The run whose side counts: the first substantial one, else the first detectable one.
+    /// The run whose side counts: the first substantial one that is no way back, else the first.
     pub(crate) turn: Option<TurnRun>,
     /// When `turn` could be seen, seconds.
     pub(crate) turn_seen_s: Option<f64>,
@@ -63,7 +63,8 @@ impl Action {
     ) -> Self {
         let to = life.passed.map_or(own.heading_rad.len() - 1, |passed| passed.k);
         let inside = |start: usize| start >= from && start <= to;
-        let runs: Vec<_> = turns.filter(|run| inside(run.start)).collect();
+        let runs = turns.filter(|run| inside(run.start));
+        let runs: Vec<_> = runs.skip_while(|run| leads_back(life, own, run)).collect();
         let speed_runs: Vec<_> = speeds.filter(|run| inside(run.start)).collect();
         let mut action = Self {
             window: (from.min(to), to),
@@ -137,8 +138,16 @@ impl Action {
 
     fn choose_turn(&mut self, life: &PairLife<'_>, own: &OwnSignals) {
         let m = &life.rules.manoeuvre;
-        let substantial = |run: &&TurnRun| run.size_rad.abs() >= m.substantial_turn_rad;
-        self.turn = self.runs.iter().find(substantial).or(self.runs.first()).copied();
+        let first = self.runs.first().copied();
+        let goes_back = |run: &TurnRun| {
+            first.is_some_and(|first| {
+                let beyond_rad = own.smooth_rad[run.end] - own.smooth_rad[first.edge];
+                let overshoots = beyond_rad * run.size_rad.signum() >= m.substantial_turn_rad;
+                returns_from(life, &first, run) && !overshoots
+            })
+        };
+        let acts = |run: &&TurnRun| run.size_rad.abs() >= m.substantial_turn_rad && !goes_back(run);
+        self.turn = self.runs.iter().find(acts).or(self.runs.first()).copied();
         self.turn_seen_s = self.turn.map(|run| {
             // the smoothed rate rises before the ship turns: the heading itself says when
             let before = own.heading_rad[run.edge];
@@ -215,15 +224,9 @@ impl Action {
     }
 
     /// Start of the first run back, once the pass is predicted clear or lies behind.
-    fn first_return(&self, life: &PairLife<'_>) -> Option<usize> {
+    pub(crate) fn first_return(&self, life: &PairLife<'_>) -> Option<usize> {
         let turn = self.turn?;
-        let back = |run: &&TurnRun| {
-            run.start > turn.start
-                && run.size_rad * turn.size_rad < 0.0
-                && (life.actual.tcpa_s(run.start).is_some_and(|t| t < 0.0)
-                    || !life.actual.dcpa_below(run.start, life.rules.distance.r_min_m))
-        };
-        self.runs.iter().find(back).map(|run| run.start)
+        self.runs.iter().find(|run| returns_from(life, &turn, run)).map(|run| run.start)
     }
 
     fn headings<'b>(&self, life: &PairLife<'_>, own: &'b OwnSignals) -> Offsets<'b> {
@@ -233,6 +236,29 @@ impl Action {
     fn speeds<'b>(&self, life: &PairLife<'_>, own: &'b OwnSignals) -> Offsets<'b> {
         Offsets::new(life, &own.departure_mps, self.departure_0_mps)
     }
+}
+
+/// Whether a run leads back to the nominal heading from a departure too slow to be a run itself,
+/// when there is nothing left to avoid.
+fn leads_back(life: &PairLife<'_>, own: &OwnSignals, run: &TurnRun) -> bool {
+    let side = run.size_rad.signum();
+    let [before, after] = [run.edge, run.end].map(|k| own.smooth_rad[k] * side);
+    life.nominal.is_some()
+        && before < 0.0
+        && after < life.rules.manoeuvre.detectable_turn_rad
+        && settled(life, run.start)
+}
+
+/// Whether the pass is predicted clear, or lies behind.
+fn settled(life: &PairLife<'_>, k: usize) -> bool {
+    life.actual.tcpa_s(k).is_some_and(|t| t < 0.0)
+        || !life.actual.dcpa_below(k, life.rules.distance.r_min_m)
+}
+
+/// Whether a run leads back from an earlier one: to the other side, when the pass was predicted
+/// clear or lay behind (section 5).
+fn returns_from(life: &PairLife<'_>, earlier: &TurnRun, run: &TurnRun) -> bool {
+    run.start > earlier.start && run.size_rad * earlier.size_rad < 0.0 && settled(life, run.start)
 }
 
 impl<'a> Offsets<'a> {

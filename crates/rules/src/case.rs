@@ -177,7 +177,8 @@ impl<'a> Case<'a> {
     }
 
     /// `t_17a`: the first sample from stage 3 on at which a close pass has been predicted for a
-    /// while. It looks back, as a ship must.
+    /// while, on the way that was really gone. It looks back, as a ship must. Such a pass lies well
+    /// inside what holds risk open, so that nothing else need be asked.
     fn find_may_act(&self) -> Option<usize> {
         let s = &self.rules().stand_on;
         let samples = |t_s: f64| (t_s / self.life.trace.sample_s).ceil() as usize;
@@ -190,7 +191,7 @@ impl<'a> Case<'a> {
             let begin = (stage_3 + 1).saturating_sub(needed).max(self.onset.k);
             let mut stretch = 0;
             (begin..=self.end()).find(|&k| {
-                let close = self.life.at_risk(k)
+                let close = self.life.actual.closing(k)
                     && self.life.actual.dcpa_below(k, self.rules().distance.r_min_m);
                 stretch = if close { stretch + 1 } else { 0 };
                 stretch >= needed && k >= stage_3

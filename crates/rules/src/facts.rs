@@ -11,7 +11,8 @@ pub(crate) fn facts(life: &PairLife<'_>, action: &Action) -> PairFacts {
     PairFacts {
         target: life.target as u8,
         risk_s: onset.map(|onset| life.time_s(onset.k)),
-        class: onset.map(|onset| onset.class),
+        class: onset.map(|onset| onset.decides),
+        class_by_bearings: onset.map(|onset| onset.class),
         role: onset.map_or(Role::None, |onset| role_of(onset.decides)),
         ambiguous: onset.is_some_and(|onset| onset.ambiguous()),
         beta_rad: onset.map(|onset| onset.seen.beta_rad),

@@ -81,6 +81,7 @@ pub(crate) fn unreadable(trace: &Trace, target: usize, flaw: &'static str, out: 
         target: target as u8,
         risk_s: None,
         class: None,
+        class_by_bearings: None,
         role: Role::None,
         ambiguous: false,
         beta_rad: None,

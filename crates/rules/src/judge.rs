@@ -121,7 +121,9 @@ impl<'a> Bench<'a> {
                 let life = life.in_sight_from(k, scanner);
                 if let Some(onset) = life.onset {
                     let action = self.action(&life, k.max(tracked));
-                    (facts.class, facts.ambiguous) = (Some(onset.class), onset.ambiguous());
+                    facts.class = Some(onset.decides);
+                    facts.class_by_bearings = Some(onset.class);
+                    facts.ambiguous = onset.ambiguous();
                     let seen = self.judge_roles(&life, &action, scanner, &mut facts);
                     for (verdict, seen) in verdicts.iter_mut().zip(seen) {
                         if in_sight_only(verdict.check) {
@@ -223,7 +225,7 @@ impl<'a> Bench<'a> {
 
     fn judge_restricted(&self, life: &PairLife<'_>, action: &Action) -> Vec<Verdict> {
         let onset = life.onset.as_ref().expect("only a pair at risk is judged by Rule 19");
-        let mut case = Case::new(life, self.own, action, onset, onset.class, self.lives);
+        let mut case = Case::new(life, self.own, action, onset, onset.decides, self.lives);
         case.restricted = true;
         case.role = Role::None;
         all_checks(&case)
@@ -249,7 +251,7 @@ impl<'a> Bench<'a> {
         let early = resolved_without_nominal(life, self.own, action);
         let mut facts = facts(life, action);
         if let Some(class) = early {
-            facts.class = Some(class);
+            (facts.class, facts.class_by_bearings) = (Some(class), Some(class));
             facts.reaction = Reaction::Early;
         } else {
             facts.first_turn_rad = None;

@@ -5,9 +5,11 @@
 //! the duty of keeping clear of the overtaken vessel until she is finally past and clear."
 //! Reading: either side is allowed. 13(a) fails with the passing distance. 13(d) fails when,
 //! before release, own ship crosses the other's centre line close ahead of her bow, comes close on
-//! her bow while the range falls, or turns towards her line from forward of the sector of 13(b) so
-//! that a close pass is predicted. Drawing ahead on a steady course is no breach. A run that ends
-//! before release cannot show that 13(d) was kept. That the other was forced to act is not judged.
+//! her bow while the range falls, turns towards her line from forward of the sector of 13(b) so
+//! that a close pass is predicted, or forces the other to alter: she then leaves her own nominal
+//! track by 10 degrees or a quarter of her speed, which only a target that minds own ship can do.
+//! With several targets it counts where no other ship was nearer to her. Drawing ahead on a steady
+//! course is no breach. A run that ends before release cannot show that 13(d) was kept.
 //! Source: rules specification, section 8; score after Hagen 2023, equations 25 and 26.
 
 use crate::case::Case;
@@ -17,7 +19,7 @@ use crate::{safe, score};
 use geom::class::OVERTAKING_SECTOR_RAD;
 use geom::units::deg;
 use geom::{EncounterClass, angle, math};
-use record::{Check, Status, Verdict};
+use record::{Check, ShipTrack, Status, Verdict};
 
 /// "Closer than r_min with |alpha| below this while the range falls" (section 8).
 const ON_THE_BOW_RAD: f64 = deg(45.0);
@@ -96,7 +98,7 @@ fn stays_clear(case: &Case<'_>) -> Option<Breach> {
             margin_m: distance_m - d.r_min_m,
         });
     }
-    turns_in(case, until)
+    turns_in(case, until).or_else(|| forces_her(case, from, until))
 }
 
 /// A substantial turn towards the other's line, from forward of the overtaking sector, into a
@@ -122,6 +124,37 @@ fn turns_in(case: &Case<'_>, until: usize) -> Option<Breach> {
         t_s: life.time_s(towards.start),
         what: format!("own ship, not yet past and clear, {altered}, to pass at {dcpa_m:.0} m"),
         margin_m: dcpa_m - d.r_min_m,
+    })
+}
+
+/// The other was forced to alter: first held departure from her nominal track in the samples.
+fn forces_her(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
+    let life = case.life;
+    let m = &case.rules().manoeuvre;
+    let (target, planned) = (life.actual.target, life.nominal?.target);
+    let last = until.min(planned.len() - 1);
+    let off = |k: usize| {
+        let turned_rad = geom::wrap(target.psi_rad[k] - planned.psi_rad[k]);
+        let speed_mps = planned.sog_mps(k);
+        let faster_mps = (target.sog_mps(k) - speed_mps).abs();
+        turned_rad.abs() >= m.substantial_turn_rad
+            || faster_mps > 0.0 && faster_mps >= m.substantial_speed_fraction * speed_mps
+    };
+    let held = (m.offset_held_s / life.trace.sample_s).ceil() as usize;
+    let k = (from..(last + 1).saturating_sub(held)).find(|&k| (k..=k + held).all(off))?;
+    let her_m = target.position_m(k);
+    let own_m = (life.actual.own.position_m(k) - her_m).norm();
+    let nearer = |other: &ShipTrack| (other.position_m(k) - her_m).norm() < own_m;
+    let others = life.trace.targets.iter().enumerate().filter(|(i, _)| *i != life.target);
+    // off before there was risk, or by another: not by own ship
+    if k == from && from > 0 && off(from - 1) || others.into_iter().any(|(_, ship)| nearer(ship)) {
+        return None;
+    }
+    Some(Breach {
+        detail: "FAIL-13D-FORCED",
+        t_s: life.time_s(k),
+        what: format!("own ship, overtaking, came to {own_m:.0} m and the other had to alter"),
+        margin_m: -case.rules().distance.r_min_m,
     })
 }
 

@@ -6,7 +6,8 @@
 //! Reading, first match: 10 degrees to port before the first starboard run of 10 fails; less than
 //! 10 degrees to starboard fails, whatever the speed did; 30 degrees to starboard (or 10, at the
 //! preferred distance) and a port-to-port pass pass; the rest is a warning, and so is a yaw to
-//! port of 2 to 10 degrees first. A port turn begun before risk opened is a warning.
+//! port of 2 to 10 degrees first. A port turn begun before risk opened was free and is a warning,
+//! but she must still alter to starboard: the next match decides.
 //! Source: rules specification, section 9 (R14); score after Hagen 2023, equations 27 to 30.
 
 use crate::case::Case;
@@ -31,10 +32,13 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
     let preferred = case.life.distance_m() >= case.rules().distance.r_pref_m;
     let large =
         x_stbd_rad >= m.apparent_turn_rad || (x_stbd_rad >= m.substantial_turn_rad && preferred);
-    let (mut status, mut detail) = if x_port_rad >= m.substantial_turn_rad {
+    let to_port = x_port_rad >= m.substantial_turn_rad;
+    let (mut status, detail) = if to_port && !case.turned_early() {
         (Status::Fail, "FAIL-14-PORT")
     } else if x_stbd_rad < m.substantial_turn_rad {
         (Status::Fail, "FAIL-14-NOACT")
+    } else if to_port {
+        (Status::Warn, "EARLY")
     } else if large && port_to_port && x_port_rad < m.detectable_turn_rad {
         (Status::Pass, "")
     } else if large && port_to_port {
@@ -51,10 +55,8 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
     if detail == "FAIL-14-NOACT" && !case.complete() {
         status = Status::Inconclusive;
     }
-    if detail == "FAIL-14-PORT" && case.turned_early() {
-        (status, detail) = (Status::Warn, "EARLY");
-    }
-    let t_s = action.turn_seen_s.unwrap_or(case.onset_s());
+    let did_not = detail == "FAIL-14-NOACT";
+    let t_s = action.turn_seen_s.filter(|_| !did_not).unwrap_or(case.onset_s());
     Ruling::new(Check::R14, case.life.target, status)
         .detail(detail)
         .margin(margin_rad)

@@ -2,9 +2,10 @@
 //!
 //! Rule 17(a)(i): "Where one of two vessels is to keep out of the way the other shall keep her
 //! course and speed."
-//! Reading: from stage 2 until she may act (17(a)(ii)), the mean heading over 30 s stays within 10
-//! degrees of the mean before stage 2 and the speed within a quarter; from 2 degrees or 7 % it is
-//! a warning. Heading is a mean because a yaw of 1 degree rms would warn in 98 % of held courses.
+//! Reading: from stage 2 until she may act (17(a)(ii)) or must (stage 4, 17(b)), the mean heading
+//! over 30 s stays within 10 degrees of the mean before stage 2 and the speed within a quarter of
+//! that at its entry; from 2 degrees or 7 % it is a warning. A departure counts when it is held.
+//! Heading is a mean because a yaw of 1 degree rms would warn in 98 % of held courses.
 //! A change on the planned route is no departure; one forced by giving way to a third ship is
 //! excused.
 //! Source: rules specification, sections 9 (R17) and 11; score after Hagen 2023, equations 15 to
@@ -29,7 +30,11 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         return not_applicable(case, Check::R17Hold);
     };
     let m = &case.rules().manoeuvre;
-    let end = case.may_act.unwrap_or(case.end()).min(case.end());
+    let until = [case.may_act, case.stages[2], Some(case.end())];
+    let end = until.into_iter().flatten().min().unwrap_or(begin);
+    if end <= begin {
+        return not_applicable(case, Check::R17Hold);
+    }
     let held = departure(case, begin, end);
     let broke =
         |turn_rad: f64, share: f64| held.turn_rad.abs() >= turn_rad || held.share.abs() >= share;
@@ -74,39 +79,54 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .done()
 }
 
-/// Largest departures of mean heading and held speed in samples `begin..=end` from their means
-/// before `begin`.
+/// Largest held departures in samples `begin..=end`: of the mean heading from its mean before
+/// `begin`, of the speed from that at `begin`.
 fn departure(case: &Case<'_>, begin: usize, end: usize) -> Departure {
-    let own = case.own;
-    let mean_s = case.rules().stand_on.heading_mean_s;
-    let half = (mean_s / 2.0 / case.life.trace.sample_s).round() as usize;
-    let before = begin.saturating_sub(2 * half)..begin.max(1);
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let psi_0_rad = mean(&own.heading_rad[before.clone()]);
-    let departure_0_mps = mean(&own.departure_mps[before.clone()]);
-    let u_0_mps = mean(&own.speed_mps[before]);
+    let (own, m) = (case.own, &case.rules().manoeuvre);
     let mut worst = Departure { k: begin, ..Departure::default() };
-    // a running sum over the window, which ends where she may act: what follows is by right
-    let window = |k: usize| (k.saturating_sub(half).max(begin), (k + half).min(end));
-    let (mut from, mut to) = window(begin);
-    let mut sum: f64 = own.heading_rad[from..=to].iter().map(|psi| psi - psi_0_rad).sum();
-    for k in begin..=end {
-        let (next_from, next_to) = window(k);
-        while from < next_from {
-            sum -= own.heading_rad[from] - psi_0_rad;
-            from += 1;
-        }
-        while to < next_to {
-            to += 1;
-            sum += own.heading_rad[to] - psi_0_rad;
-        }
-        let turn_rad = sum / (to + 1 - from) as f64;
+    let means_rad = mean_departures_rad(case, begin, end);
+    let held = (m.offset_held_s / case.life.trace.sample_s).ceil() as usize;
+    for (k, window) in means_rad.windows(held + 1).enumerate() {
+        // held to one side: the least of it, signed
+        let (low, high) = window
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        let turn_rad = if low > 0.0 { low } else { high.min(0.0) };
         if turn_rad.abs() > worst.turn_rad.abs() {
-            (worst.turn_rad, worst.k) = (turn_rad, k);
+            (worst.turn_rad, worst.k) = (turn_rad, begin + k);
         }
     }
-    worst.share = speed_share(case, begin..end + 1, departure_0_mps, u_0_mps);
+    let (level_mps, u_0_mps) = (own.departure_mps[begin], own.speed_mps[begin]);
+    worst.share = speed_share(case, begin..end + 1, level_mps, u_0_mps);
     worst
+}
+
+/// How far the centred mean of the heading lies from its mean before `begin`, at each sample of
+/// `begin..=end`. No mean looks past `end`: what she does from then on is by right.
+fn mean_departures_rad(case: &Case<'_>, begin: usize, end: usize) -> Vec<f64> {
+    let heading_rad = &case.own.heading_rad;
+    let mean_s = case.rules().stand_on.heading_mean_s;
+    let half = (mean_s / 2.0 / case.life.trace.sample_s).round() as usize;
+    let before = &heading_rad[begin.saturating_sub(2 * half)..begin.max(1)];
+    let psi_0_rad = before.iter().sum::<f64>() / before.len() as f64;
+    // a running sum over the window
+    let window = |k: usize| (k.saturating_sub(half), (k + half).min(end));
+    let (mut from, mut to) = window(begin);
+    let mut sum: f64 = heading_rad[from..=to].iter().map(|psi| psi - psi_0_rad).sum();
+    (begin..=end)
+        .map(|k| {
+            let (next_from, next_to) = window(k);
+            while from < next_from {
+                sum -= heading_rad[from] - psi_0_rad;
+                from += 1;
+            }
+            while to < next_to {
+                to += 1;
+                sum += heading_rad[to] - psi_0_rad;
+            }
+            sum / (to + 1 - from) as f64
+        })
+        .collect()
 }
 
 /// Largest change of speed held in a range of samples, as a signed share.

@@ -3,6 +3,8 @@
 //! A course run starts when the smoothed yaw rate reaches `q_on` and ends when it stays under half
 //! of that for a while, changes sign, or the ship stops; a peak or a plateau of the rate never ends
 //! one. Runs to one side with a short gap are one. A turn too slow for `q_on` is found by its size.
+//! Smoothing spreads a turn to seconds before it began; when a run began is read from the heading
+//! itself, so that a turn made in the very second of detection lies in the window of action.
 //! Reference: rules specification, section 5, which mends the segmentation of Hagen and Tengesdal.
 
 use crate::ruleset::RuleSet;
@@ -12,11 +14,11 @@ use record::Ship;
 /// One alteration of course.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TurnRun {
-    /// First sample at the starting rate.
+    /// Last sample before the ship herself began to turn.
     pub(crate) start: usize,
-    /// First quiet sample after it (or the last sample).
+    /// First quiet sample of the smoothed rate after it (or the last sample).
     pub(crate) end: usize,
-    /// Last quiet sample before it: what was before the run is before this.
+    /// Last quiet sample of the smoothed rate before it: what was before the run is before this.
     pub(crate) edge: usize,
     /// Net change, radians, starboard positive.
     pub(crate) size_rad: f64,
@@ -54,6 +56,25 @@ pub(crate) fn turn_runs(
         add_slow_runs(own, slow_radps, sample_s, rules, runs);
     }
     runs.retain(|run| run.size_rad.abs() >= m.detectable_turn_rad);
+    for run in runs {
+        run.start = begun(&own.heading_rad, run, m.detectable_turn_rad);
+    }
+}
+
+/// How far the heading may have left what it was before a turn has begun, as a share of the
+/// detectable turn.
+const UNDISTURBED: f64 = 0.1;
+
+/// The last sample at which the unsmoothed heading was what it was before the run.
+fn begun(heading_rad: &[f64], run: &TurnRun, detectable_rad: f64) -> usize {
+    let offset = |k: usize| (heading_rad[k] - heading_rad[run.edge]) * run.size_rad.signum();
+    let mut before_rad = f64::INFINITY;
+    let seen = (run.edge..=run.end).find(|&k| {
+        before_rad = before_rad.min(offset(k));
+        offset(k) - before_rad >= detectable_rad
+    });
+    let undisturbed = |&k: &usize| offset(k) <= before_rad + UNDISTURBED * detectable_rad;
+    seen.and_then(|seen| (run.edge..seen).rev().find(undisturbed)).unwrap_or(run.start)
 }
 
 /// Turns that never reach the starting rate but change course by a substantial angle in time.
@@ -237,6 +258,17 @@ mod tests {
         assert_eq!(runs.len(), 2, "{runs:?}");
         assert!((to_deg(runs[0].size_rad) - 25.2).abs() < 1.0, "{runs:?}");
         assert!((to_deg(runs[1].size_rad) + 25.2).abs() < 1.0, "{runs:?}");
+    }
+
+    /// The smoothed rate rises two to three seconds before a brisk turn does.
+    #[test]
+    fn a_run_begins_when_the_ship_herself_does() {
+        for (rate, side) in [(5.0, 1.0), (5.0, -1.0), (1.0, 1.0), (0.25, -1.0)] {
+            let begins = runs_of(start().turn(side * 20.0, rate).hold(60.0))[0].start;
+            assert!(begins.abs_diff(40) <= 1, "{rate} deg/s: {begins}");
+        }
+        let reversed = runs_of(start().turn(30.0, 3.0).turn(-30.0, 3.0).hold(60.0));
+        assert!(reversed[1].start.abs_diff(50) <= 1, "{reversed:?}");
     }
 
     #[test]

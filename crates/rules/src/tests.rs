@@ -11,6 +11,7 @@ mod rule_sets;
 mod rules_14_15_16;
 mod safe_and_turn;
 mod several_targets;
+mod window;
 
 use crate::testing::{Scene, Script, rules, ship};
 use crate::{Judge, RuleSet};

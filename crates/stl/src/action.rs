@@ -16,6 +16,8 @@ use record::{ShipTrack, Trace};
 pub struct Deviation {
     /// Heading less nominal heading, unwrapped, radians.
     pub heading_rad: Vec<f64>,
+    /// Whether there was a nominal track to subtract.
+    pub planned: bool,
     /// Speed over ground, m/s.
     pub speed_mps: Vec<f64>,
     /// Speed less nominal speed, m/s.
@@ -47,7 +49,8 @@ impl Deviation {
             (trace.own.ship.yaw_rate_radps_max / 2.0).min(params.run.yaw_rate_on_radps);
         let turns = heading_runs(&heading_rad, &speed_mps, yaw_rate_on, params, trace.sample_s);
         let speed_changes = speed_runs(&speed_change_mps, params, trace.sample_s);
-        Self { heading_rad, speed_mps, speed_change_mps, turns, speed_changes }
+        let planned = nominal.is_some();
+        Self { heading_rad, planned, speed_mps, speed_change_mps, turns, speed_changes }
     }
 }
 
@@ -87,7 +90,16 @@ impl Action {
             (duty.begin..=duty.end).contains(&run.start)
                 && belongs(run.start, lives, target, params, sample_s)
         };
-        let turns: Vec<Run> = deviation.turns.iter().filter(mine).copied().collect();
+        // Back to the plan from a departure too slow to be a run: not an action either.
+        let to_plan = |run: &&Run| {
+            let toward = |k: usize| deviation.heading_rad[k] * run.change.signum();
+            deviation.planned
+                && toward(run.start) < 0.0
+                && toward(run.end) < params.turn_detectable_rad
+                && settled(&lives[target], run.start, params)
+        };
+        let turns = deviation.turns.iter().filter(mine).skip_while(to_plan).copied();
+        let turns: Vec<Run> = turns.collect();
         let speed_changes: Vec<Run> =
             deviation.speed_changes.iter().filter(mine).copied().collect();
         let first = turns.iter().chain(&speed_changes).map(|run| run.start).min();
@@ -108,11 +120,16 @@ impl Action {
                 && run.start > action.start
                 && settled(&lives[target], run.start, params)
         };
-        // A turn back to the route is no action, however large (section 5).
-        let acts = |run: &&Run| {
-            run.change.abs() >= params.turn_action_rad
-                && !turns.first().is_some_and(|first| back_from(first, run))
+        // A turn back to the route is no action, however large (section 5), unless it goes on to be
+        // an alteration to the other side of what she held first.
+        let crosses = |first: &Run, run: &Run| {
+            let past = deviation.heading_rad[run.end] - deviation.heading_rad[first.start];
+            past * run.change.signum() >= params.turn_action_rad
         };
+        let way_back = |run: &Run| {
+            turns.first().is_some_and(|first| back_from(first, run) && !crosses(first, run))
+        };
+        let acts = |run: &&Run| run.change.abs() >= params.turn_action_rad && !way_back(run);
         let counted = turns.iter().find(acts).or_else(|| turns.first()).copied();
         let side = counted.map_or(0.0, |run| run.change.signum());
         let back = |run: &&Run| counted.is_some_and(|action| back_from(&action, run));

@@ -94,7 +94,7 @@ impl<'a> Case<'a> {
         if duty.own_stopped {
             return Claim::NotEvaluated;
         }
-        match (check, duty.class) {
+        let claim = match (check, duty.class) {
             (Check::R8Magnitude, _) => self.apparent(duty, action),
             (Check::R13, EncounterClass::Overtaking) => self.overtaking(duty),
             (Check::R14, EncounterClass::HeadOn) => self.head_on(duty, action),
@@ -103,6 +103,21 @@ impl<'a> Case<'a> {
             (Check::R17Port, EncounterClass::CrossingPort) => self.not_to_port(duty, action),
             (Check::R19, _) => self.not_by_radar(duty, action),
             _ => Claim::NotApplicable,
+        };
+        self.unless_settled(claim, duty, action)
+    }
+
+    /// Own ship acted before there was any risk, and there never was: nothing is left to break.
+    fn unless_settled(&self, claim: Claim, duty: &Duty, action: &Action) -> Claim {
+        let in_sight = self.by_radar.is_none() && self.trace.nominal.is_some();
+        let settled = in_sight && duty.never_opened && self.seen_before(duty.onset, action);
+        match claim {
+            Claim::Formula { formula, signals, complete } if settled => Claim::Formula {
+                formula: phi::unless_settled(formula),
+                signals: signals.with(c::SETTLED_EARLY, self.flags(|_| true)),
+                complete,
+            },
+            claim => claim,
         }
     }
 
@@ -221,7 +236,6 @@ impl<'a> Case<'a> {
         let starboard = action.turns.iter().find(counts).map_or(usize::MAX, |run| run.start);
         // What was turned to port before risk opened was free.
         let early = self.turned_early(duty, action);
-        let settled = duty.never_opened && self.seen_before(duty.onset, action);
         let end = duty.end + 1;
         let before = if early { action.from..action.from } else { action.from..starboard.min(end) };
         Claim::Formula {
@@ -230,19 +244,22 @@ impl<'a> Case<'a> {
                 .signals_of(duty)
                 .with(c::CLOCK, self.made_in(action.from..end))
                 .with(c::PORT_CLOCK, self.made_in(before))
-                .with(c::TURN_RAD, action.turn_rad.clone())
-                .with(c::SETTLED_EARLY, self.flags(|_| settled)),
+                .with(c::TURN_RAD, action.turn_rad.clone()),
             complete: duty.complete,
         }
     }
 
-    /// Whether an offset that could be seen, and was held, was made before sample `onset`.
+    /// Whether an alteration that could be seen, and was held, was made before sample `onset`.
     fn seen_before(&self, onset: usize, action: &Action) -> bool {
-        let last = action.turn_rad.len().saturating_sub(self.hold);
+        let last = action.turn_rad.len().saturating_sub(self.hold + 1);
+        let held = |values: &[f64], side: f64, least: f64| {
+            let seen = |x: &f64| side * x >= least;
+            (action.from..onset.min(last + 1)).any(|k| values[k..=k + self.hold].iter().all(seen))
+        };
+        let p = self.params;
         [1.0, -1.0].into_iter().any(|side| {
-            let seen = |x: &f64| side * x >= self.params.turn_detectable_rad;
-            (action.from..onset.min(last))
-                .any(|k| action.turn_rad[k..=(k + self.hold).min(last)].iter().all(seen))
+            held(&action.turn_rad, side, p.turn_detectable_rad)
+                || held(&action.speed_cut, side, p.speed_detectable)
         })
     }
 
@@ -296,6 +313,7 @@ impl<'a> Case<'a> {
             .with(c::AHEAD_M, self.ahead_m(Course::Heading))
             .with(c::CLOSING, self.flags(|k| pair.range_rate_mps[k] < 0.0))
             .with(c::TURNED_IN, self.flags(turned_in))
+            .with(c::FORCED, self.forced(duty.onset))
             .with(c::ALPHA_RAD, alpha);
         Claim::Formula { formula: phi::overtaking(p), signals, complete: release.is_some() }
     }

@@ -8,6 +8,7 @@
 pub mod action;
 pub mod checks;
 pub mod clearance;
+mod forced;
 pub mod formula;
 pub mod judge;
 pub mod life;

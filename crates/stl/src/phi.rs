@@ -50,6 +50,8 @@ pub mod column {
     pub const CLOSING: &str = "closing";
     /// Flag: a turn toward the overtaken ship's track ended here.
     pub const TURNED_IN: &str = "turned_in";
+    /// Flag: the overtaken ship has been off her own plan, alone with own ship, until now.
+    pub const FORCED: &str = "forced";
     /// Turn toward a target abeam or abaft the beam, radians.
     pub const TOWARD_RAD: &str = "toward_rad";
 }
@@ -80,7 +82,12 @@ pub fn head_on(hold: usize, p: &Params) -> Formula {
     let starboard = held(at_least(c::TURN_RAD, p.turn_action_rad, p.scale.angle_rad), hold);
     let turns = eventually(flag(c::CLOCK).and(starboard));
     let first = always(flag(c::PORT_CLOCK).and(port).negated());
-    flag(c::SETTLED_EARLY).or(first.and(turns))
+    first.and(turns)
+}
+
+/// Any duty, of a ship that had settled the encounter before there was risk.
+pub fn unless_settled(formula: Formula) -> Formula {
+    flag(c::SETTLED_EARLY).or(formula)
 }
 
 /// Rule 15: not across her bow until clear.
@@ -96,7 +103,7 @@ pub fn overtaking(p: &Params) -> Formula {
     let near = at_least(c::DISTANCE_M, p.minimum_m, p.scale.distance_m).negated();
     let before_bow = at_least(c::ALPHA_RAD, p.overtaken_bow_rad, p.scale.angle_rad).negated();
     let too_close = flag(c::CLOSING).and(near).and(before_bow);
-    let wrong = across.or(too_close).or(flag(c::TURNED_IN));
+    let wrong = across.or(too_close).or(flag(c::TURNED_IN)).or(flag(c::FORCED));
     safe(p.minimum_m, p).and(always(flag(c::CLOCK).implies(wrong.negated())))
 }
 

@@ -4,8 +4,9 @@
 //! whose first sample counts: `always[0, hold] condition` in the words of section 12.
 
 use crate::params::{Params, StageClock};
+use crate::runs::smoothed;
 use crate::signals::{ABAFT_THE_BEAM_RAD, PairSignals};
-use record::EncounterClass;
+use record::{EncounterClass, ShipTrack};
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
@@ -19,7 +20,8 @@ pub fn risk_open(
 ) -> Vec<Range<usize>> {
     let samples = pair.samples();
     let hold = samples_of(params.risk_hold_s, sample_s);
-    let steady = |k: usize| !pair.manoeuvring(k, params.manoeuvring_yaw_rate_radps);
+    let unsteady = [pair.own, pair.target].map(|ship| unsteady(ship, params, sample_s));
+    let steady = |k: usize| unsteady.iter().all(|ship| !ship.get(k).is_some_and(|turns| *turns));
     let mut open: Vec<Range<usize>> = Vec::new();
     let mut from: Option<usize> = None;
     let mut streak = 0;
@@ -46,6 +48,17 @@ pub fn risk_open(
         open.push(begin..samples);
     }
     open
+}
+
+/// Where a ship manoeuvres: a seaway or a restless helm yaws her faster than that all the time, so
+/// that the rate is smoothed as it is for the runs. Empty where she never does.
+fn unsteady(ship: &ShipTrack, params: &Params, sample_s: f64) -> Vec<bool> {
+    let turns = |rate: &f64| rate.abs() > params.manoeuvring_yaw_rate_radps;
+    if !ship.yaw_rate_radps.iter().any(turns) {
+        return Vec::new();
+    }
+    let smooth = smoothed(&ship.yaw_rate_radps, params.run.smoothing_s, sample_s);
+    smooth.iter().map(turns).collect()
 }
 
 fn opens(pair: &PairSignals<'_>, params: &Params, k: usize) -> bool {

@@ -7,7 +7,7 @@ use crate::risk::samples_of;
 /// One alteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// First sample.
+    /// Last sample before the ship herself did anything.
     pub start: usize,
     /// Last sample.
     pub end: usize,
@@ -44,7 +44,32 @@ pub fn heading_runs(
         }
     }
     merged.retain(|run| run.change.abs() >= params.turn_detectable_rad);
-    with_slow_runs(merged, &smooth, heading_rad, params, sample_s)
+    let mut all = with_slow_runs(merged, &smooth, heading_rad, params, sample_s);
+    let blur = samples_of(3.0 * params.run.smoothing_s, sample_s);
+    let mut before = 0;
+    for run in &mut all {
+        let from = run.start.saturating_sub(blur).max(before).min(run.start);
+        run.start = last_unturned(&heading_rad[from..=run.end], run, params) + from;
+        before = run.end;
+    }
+    all
+}
+
+/// The mean shows a turn seconds before it is made; the heading itself tells when it was: at the
+/// last sample that is as far to the other side as any before the turn can be seen.
+fn last_unturned(heading_rad: &[f64], run: &Run, params: &Params) -> usize {
+    let as_far_rad = params.turn_detectable_rad / 10.0;
+    let sign = run.change.signum();
+    let (mut at, mut furthest) = (0, sign * heading_rad[0]);
+    for (k, heading) in heading_rad.iter().enumerate() {
+        let now = sign * heading;
+        if now <= furthest + as_far_rad {
+            (at, furthest) = (k, furthest.min(now));
+        } else if now >= furthest + params.turn_detectable_rad {
+            break;
+        }
+    }
+    at
 }
 
 /// Runs of the speed: contiguous samples at which it changes by `acceleration_mps2` or more, and
@@ -171,7 +196,7 @@ fn slow_runs(
 }
 
 /// Gaussian mean, the kernel cut at three standard deviations and at the ends of the track.
-fn smoothed(values: &[f64], deviation_s: f64, sample_s: f64) -> Vec<f64> {
+pub(crate) fn smoothed(values: &[f64], deviation_s: f64, sample_s: f64) -> Vec<f64> {
     let reach = (3.0 * deviation_s / sample_s).ceil();
     let reach = if reach > 0.0 { reach as usize } else { 0 };
     let weight = |i: usize| {

@@ -31,8 +31,8 @@ pub fn wrapped_rad(angle_rad: f64) -> f64 {
 /// Own ship and one target, sample by sample.
 #[derive(Clone, Debug)]
 pub struct PairSignals<'a> {
-    own: &'a ShipTrack,
-    target: &'a ShipTrack,
+    pub(crate) own: &'a ShipTrack,
+    pub(crate) target: &'a ShipTrack,
     kind: DistanceKind,
     radii_m: f64,
     /// Target less own ship.
@@ -142,12 +142,6 @@ impl<'a> PairSignals<'a> {
         let own = Posed { ship: &self.own.ship, psi_rad: self.own.psi_rad[k] };
         let target = Posed { ship: &self.target.ship, psi_rad: self.target.psi_rad[k] };
         predicted_clearance_m(own, target, self.position_m[k], self.velocity_mps[k]) < limit_m
-    }
-
-    /// Whether either ship turns so fast that a prediction means nothing.
-    pub fn manoeuvring(&self, k: usize, yaw_rate_radps: f64) -> bool {
-        self.own.yaw_rate_radps[k].abs() > yaw_rate_radps
-            || self.target.yaw_rate_radps[k].abs() > yaw_rate_radps
     }
 
     /// Where own ship lies to the target's projected track: metres ahead of her bow along

@@ -85,7 +85,10 @@ impl Case<'_> {
             let beta = self.pair().beta_rad(run.start);
             beta < 0.0 && beta > -ABAFT_THE_BEAM_RAD
         };
-        if action.counted.is_some_and(|run| !on_port(run)) {
+        // A run to starboard, such as the way back, says nothing of where she was.
+        let before_return = |run: &&Run| action.returns.is_none_or(|back| run.start < back);
+        let to_port = action.turns.iter().filter(before_return).find(|run| run.change < 0.0);
+        if to_port.is_some_and(|run| !on_port(*run)) {
             return Claim::NotApplicable;
         }
         let stage_4 = duty.stages[2].filter(|_| !p.port_turn_fails_in_stage_4);

@@ -101,3 +101,26 @@ fn exactly_at_the_limit_is_undecided() {
     let found = finding(&trace, Check::Safe);
     assert_eq!((found.status, found.rho), (Finding::Undecided, Some(0.0)));
 }
+
+/// The mean heading shows a turn seconds before the ship made it.
+#[test]
+fn a_turn_made_in_the_second_of_detection_is_the_action() {
+    // Risk opens at 70 s.
+    let far = Script::straight(2600.0, 0.0, 180.0, 5.0);
+    let mut trace = run(&own().turn(60, 20.0), &[far], 400);
+    trace.pairs[0].tracked_s = Some(60.0);
+    assert_eq!(finding(&trace, Check::R14).status, Finding::Holds);
+    assert_eq!(finding(&trace, Check::R8Magnitude).status, Finding::Holds);
+    trace.pairs[0].tracked_s = Some(70.0);
+    assert_eq!(finding(&trace, Check::R14).status, Finding::Violated);
+}
+
+#[test]
+fn a_ship_that_leaves_her_plan_before_an_overtaker_was_forced() {
+    let slow = Script::straight(400.0, 0.0, 0.0, 2.0);
+    let fast = Script { speed_mps: 6.0, ..own() }.turn(10, 25.0).turn(74, -25.0);
+    let mut trace = run(&fast, &[slow.clone().turn(60, -20.0)], 300);
+    assert_eq!(finding(&trace, Check::R13).status, Finding::Holds);
+    trace.nominal.as_mut().unwrap().targets = run(&fast, &[slow], 300).nominal.unwrap().targets;
+    assert_eq!(finding(&trace, Check::R13).status, Finding::Violated);
+}

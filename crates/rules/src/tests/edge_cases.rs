@@ -11,7 +11,7 @@ fn seen_at(alpha_rad: f64) -> Option<EncounterClass> {
     let psi_rad = geom::wrap(std::f64::consts::PI - alpha_rad);
     let other = Script::new(ship(10.0, 3.0), 1500.0, 0.0, psi_rad, 0.5).hold(30.0);
     let trace = Scene::new(own(8.0).hold(30.0), other).trace();
-    judge_by(rules(), &trace).pairs[0].class
+    judge_by(rules(), &trace).pairs[0].class_by_bearings
 }
 
 #[test]
@@ -35,8 +35,12 @@ fn alpha_at_13_degrees_exactly() {
     let psi_deg = 180.0 - 14.0;
     let judgement = judge(&Scene::new(own(6.0).hold(500.0), target(1500.0, 0.0, psi_deg, 6.0)));
     let facts = &judgement.pairs[0];
-    assert_eq!(facts.class, Some(EncounterClass::CrossingStbd));
+    assert_eq!(facts.class_by_bearings, Some(EncounterClass::CrossingStbd));
     assert_eq!((facts.ambiguous, facts.role), (true, Role::Both));
+    // table and sentence speak of the class that decides
+    assert_eq!(facts.class, Some(EncounterClass::HeadOn));
+    let sentence = verdict(&judgement, Check::R14).sentence.clone().unwrap();
+    assert!(sentence.contains("meeting head-on"), "{sentence}");
 }
 
 #[test]
@@ -279,7 +283,8 @@ fn a_pass_under_the_other_role_is_a_warning() {
     let crossing = Scene::new(own(6.0).hold(700.0), target(1500.0, -17.0, 90.0, 0.5));
     let judgement = judge(&crossing);
     let facts = &judgement.pairs[0];
-    assert_eq!((facts.class, facts.role), (Some(EncounterClass::CrossingPort), Role::GiveWay));
+    assert_eq!((facts.class, facts.role), (Some(EncounterClass::CrossingStbd), Role::GiveWay));
+    assert_eq!(facts.class_by_bearings, Some(EncounterClass::CrossingPort));
     assert!(facts.ambiguous);
     expect(&judgement, Check::R8Time, Warn, "AMBIGUOUS");
 }

@@ -106,7 +106,7 @@ proptest! {
         let (a, b): (&PairFacts, &PairFacts) = (&here.pairs[0], &mirror.pairs[0]);
         prop_assume!(a.beta_rad.is_none_or(|beta| beta.abs() > 1e-9));
         prop_assert_eq!(a.risk_s, b.risk_s);
-        prop_assert_eq!(a.class.map(EncounterClass::mirrored), b.class);
+        prop_assert_eq!(a.class_by_bearings.map(EncounterClass::mirrored), b.class_by_bearings);
         prop_assert_eq!(a.beta_rad.map(f64::to_bits), b.beta_rad.map(|x| (-x).to_bits()));
         prop_assert_eq!(a.alpha_rad.map(f64::to_bits), b.alpha_rad.map(|x| (-x).to_bits()));
         prop_assert_eq!(a.range_m.map(f64::to_bits), b.range_m.map(f64::to_bits));
@@ -115,7 +115,7 @@ proptest! {
         prop_assert_eq!((a.reaction, a.apparent), (b.reaction, b.apparent));
         prop_assert_eq!((a.cpa_s, a.ambiguous), (b.cpa_s, b.ambiguous));
         let crossing = [EncounterClass::CrossingStbd, EncounterClass::CrossingPort];
-        if !a.ambiguous && a.class.is_some_and(|class| !crossing.contains(&class)) {
+        if !a.ambiguous && a.class_by_bearings.is_some_and(|class| !crossing.contains(&class)) {
             prop_assert_eq!(a.stages_s, b.stages_s);
         }
         // SAFE sees no side

@@ -57,6 +57,25 @@ fn crossing_ahead_counts_within_the_preferred_distance() {
     assert_ne!(verdict(&outside, Check::R13).detail, "FAIL-13D-AHEAD");
 }
 
+/// A target that minds own ship leaves her nominal track.
+#[test]
+fn forcing_the_overtaken_ship_to_alter_is_13d() {
+    let she = |angle_deg: f64| {
+        Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0)
+            .hold(200.0)
+            .turn(angle_deg, 2.0)
+            .hold(700.0)
+    };
+    let meets = |angle_deg: f64, planned: Script| {
+        let script = overtake(20.0).hold(600.0);
+        judge(&Scene::new(script, she(angle_deg)).nominal_targets(vec![planned.hold(400.0)]))
+    };
+    expect(&meets(-25.0, slow_ahead()), Check::R13, Fail, "FAIL-13D-FORCED");
+    expect(&meets(-8.0, slow_ahead()), Check::R13, Pass, "");
+    // her own plan
+    expect(&meets(-25.0, she(-25.0)), Check::R13, Pass, "");
+}
+
 #[test]
 fn does_not_apply_to_other_classes() {
     for (speed, other) in [(6.0, head_on()), (6.0, from_starboard()), (3.0, fast_astern())] {

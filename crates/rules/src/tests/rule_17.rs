@@ -30,6 +30,40 @@ fn altering_in_stage_2_fails_and_a_small_yaw_warns() {
     expect(&slowed(4.6), Check::R17Hold, Warn, "UNSTEADY");
 }
 
+/// She slows before stage 2 and gains speed again in it: what counts is the speed at its entry.
+#[test]
+fn speed_is_held_against_that_at_the_entry_of_stage_2() {
+    let script = own(6.0).hold(70.0).speed_to(4.7, 0.2).hold(30.0).speed_to(6.0, 0.2).hold(60.0);
+    expect(&stand_on(script), Check::R17Hold, Fail, "FAIL-17AI");
+}
+
+/// Her mean heading is 10 degrees off for a second or two.
+#[test]
+fn a_departure_of_the_mean_heading_must_be_held() {
+    let pulse = |seconds: f64| {
+        let script = own(6.0).hold(100.0).turn(10.2, 10.0).hold(seconds).turn(-10.2, 10.0);
+        stand_on(script.hold(60.0))
+    };
+    expect(&pulse(30.0), Check::R17Hold, Warn, "UNSTEADY");
+    expect(&pulse(40.0), Check::R17Hold, Fail, "FAIL-17AI");
+}
+
+/// The moment needs a pass predicted below the minimum: a metre above it, acting in stage 3 is
+/// acting before she may.
+#[test]
+fn a_pass_predicted_above_the_minimum_gives_no_right_to_act() {
+    let script = own(6.0).hold(240.0).turn(60.0, 6.0).hold(500.0);
+    let trace = Scene::new(script, target(1800.0, -1950.0, 90.0, 6.0)).trace();
+    let planned_m = trace.nominal.as_ref().unwrap().minima[0].hull_m;
+    let by = |r_min_m: f64| judge_by(with("r_min_m", r_min_m), &trace);
+    let may = by(planned_m + 1.0);
+    expect(&may, Check::R17Hold, Pass, "");
+    expect(&may, Check::R17May, Pass, "ACTED");
+    let may_not = by(planned_m - 1.0);
+    expect(&may_not, Check::R17Hold, Fail, "FAIL-17AI");
+    expect(&may_not, Check::R17May, NotApplicable, "");
+}
+
 #[test]
 fn from_stage_3_on_she_may_act() {
     let acted = stand_on(own(6.0).hold(225.0).turn(60.0, 6.0));
@@ -79,6 +113,14 @@ fn not_to_port_for_a_ship_on_the_port_side() {
     expect(&extremis, Check::R17Port, Warn, "PORT-IN-EXTREMIS");
     let give_way = judge(&Scene::new(own(6.0).hold(700.0), from_starboard()));
     expect(&give_way, Check::R17Port, NotApplicable, "");
+}
+
+/// She acts to starboard by right and turns back before the closest point, the other abaft her beam
+/// on the heading of the action: the rule was put to the test and kept.
+#[test]
+fn a_way_back_to_port_leaves_17c_applied() {
+    let script = own(6.0).hold(225.0).turn(75.0, 8.0).hold(50.0).turn(-75.0, 8.0);
+    expect(&stand_on(script), Check::R17Port, Pass, "");
 }
 
 #[test]
