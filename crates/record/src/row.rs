@@ -75,9 +75,10 @@ pub struct RunRow {
     pub apparent: Reaction,
     /// Signed size of the first alteration, radians.
     pub first_turn_rad: Option<f64>,
-    /// Distance sailed and still to sail, less the straight one, metres.
+    /// Distance sailed up to the passage of the goal, and still to sail to it, less the planned
+    /// one, metres.
     pub extra_distance_m: Option<f64>,
-    /// The last waypoint was reached.
+    /// The last waypoint was reached, by the condition that ends a run which goes on to it.
     pub goal_reached: bool,
 
     /// Impact speed, m/s.

@@ -44,6 +44,9 @@ pub struct Trace {
     pub events: PlannerEvents,
     /// The contact that ended the run.
     pub contact: Option<Contact>,
+    /// Own ship came to her last waypoint, by the condition that ends a run which goes on to it.
+    /// It follows from the tracks and is no part of the digest.
+    pub goal_reached: bool,
     /// The same encounter with own ship on its route, not avoiding.
     pub nominal: Option<Nominal>,
     /// The last safe instants of each pair (rules specification, section 10), where they were

@@ -385,6 +385,7 @@ impl<'a> World<'a> {
             alerts: self.alerts,
             events,
             contact: self.contact,
+            goal_reached: self.ending.goal_reached(),
             ..invalid(self.encounter)
         }
     }
@@ -451,6 +452,7 @@ fn invalid(encounter: &Encounter) -> Trace {
         alerts: Vec::new(),
         events: PlannerEvents::default(),
         contact: None,
+        goal_reached: false,
         nominal: None,
         last_minute: None,
     }
