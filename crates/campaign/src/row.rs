@@ -42,6 +42,7 @@ pub fn of_run(encounter: &Encounter, trace: &Trace, digest: Digest, judged: &Jud
         row.nominal_cpa_hull_m = hull;
         row.nominal_safety_radius_broken = kind.map(|m| m < trace.safety_radius_m);
     }
+    row.unavoidable = trace.unavoidable;
     reactions(&mut row, judged);
     route(&mut row, encounter, trace);
     if let Some(contact) = trace.contact {
@@ -173,28 +174,27 @@ struct Passage {
 /// The point of a track, from a passage on, that is nearest to a place.
 fn nearest_passage(own: &ShipTrack, from: &Passage, place: Vec2) -> Passage {
     let (mut nearest, mut here) = (*from, *from);
-    let mut least_m = (place - from.position_m).norm();
+    let mut least_m2 = (place - from.position_m).norm_squared();
     for next in from.k + 1..own.len() {
-        let step = own.position_m(next) - here.position_m;
-        let length_m = step.norm();
-        if length_m > 0.0 {
-            let share = (place - here.position_m).dot(&step) / (length_m * length_m);
-            if share < 1.0 {
-                let share = share.max(0.0);
-                let foot_m = here.position_m + step * share;
-                let distance_m = (place - foot_m).norm();
-                if distance_m < least_m {
-                    least_m = distance_m;
-                    let sailed_m = here.sailed_m + share * length_m;
-                    nearest = Passage { k: next - 1, position_m: foot_m, sailed_m };
-                }
+        let position_m = own.position_m(next);
+        let step = position_m - here.position_m;
+        let (length_m2, along_m2) = (step.norm_squared(), (place - here.position_m).dot(&step));
+        let length_m = length_m2.sqrt();
+        // the foot lies within the step
+        if along_m2 > 0.0 && along_m2 < length_m2 {
+            let share = along_m2 / length_m2;
+            let foot_m = here.position_m + step * share;
+            let distance_m2 = (place - foot_m).norm_squared();
+            if distance_m2 < least_m2 {
+                least_m2 = distance_m2;
+                let sailed_m = here.sailed_m + share * length_m;
+                nearest = Passage { k: next - 1, position_m: foot_m, sailed_m };
             }
         }
-        let position_m = own.position_m(next);
         here = Passage { k: next, position_m, sailed_m: here.sailed_m + length_m };
-        let distance_m = (place - position_m).norm();
-        if distance_m < least_m {
-            (least_m, nearest) = (distance_m, here);
+        let distance_m2 = (place - position_m).norm_squared();
+        if distance_m2 < least_m2 {
+            (least_m2, nearest) = (distance_m2, here);
         }
     }
     nearest
@@ -209,8 +209,7 @@ mod tests {
     /// A track through these places, a sample at each.
     fn track(places: &[(f64, f64)]) -> ShipTrack {
         let hull = HullOutline::centred(8.45, 2.71);
-        let ship =
-            Ship { hull, yaw_rate_radps_max: 0.3, speed_mps_max: 12.0, steerage_mps: None };
+        let ship = Ship { hull, yaw_rate_radps_max: 0.3, speed_mps_max: 12.0, steerage_mps: None };
         let mut track = ShipTrack::with_capacity(ship, places.len());
         track.north_m = places.iter().map(|place| place.0).collect();
         track.east_m = places.iter().map(|place| place.1).collect();

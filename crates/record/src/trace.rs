@@ -49,9 +49,12 @@ pub struct Trace {
     pub goal_reached: bool,
     /// The same encounter with own ship on its route, not avoiding.
     pub nominal: Option<Nominal>,
-    /// The last safe instants of each pair (rules specification, section 10), where they were
-    /// computed. Not part of the digest: a rule set asks for them.
-    pub last_minute: Option<Vec<LastMinute>>,
+    /// The last safe instants of each pair (rules specification, section 10) that reached stage 3,
+    /// where they were computed. Not part of the digest: they depend on the rule set.
+    pub last_minute: Option<Vec<Option<LastMinute>>>,
+    /// No manoeuvre of own ship from any instant of the nominal track clears all targets; absent
+    /// where it was not computed. No part of the digest either.
+    pub unavoidable: Option<bool>,
 }
 
 impl Trace {

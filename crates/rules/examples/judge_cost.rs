@@ -71,6 +71,7 @@ fn encounter(bearing_deg: f64, course_deg: f64) -> Trace {
             targets: vec![target.clone()],
         }),
         last_minute: None,
+        unavoidable: None,
         own,
         targets: vec![target],
     }

@@ -215,6 +215,7 @@ impl Scene {
             goal_reached: false,
             nominal: (!self.without_nominal).then(|| self.make_nominal(seconds)),
             last_minute: None,
+            unavoidable: None,
         }
     }
 

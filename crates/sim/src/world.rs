@@ -455,5 +455,6 @@ fn invalid(encounter: &Encounter) -> Trace {
         goal_reached: false,
         nominal: None,
         last_minute: None,
+        unavoidable: None,
     }
 }
