@@ -89,7 +89,10 @@ impl Judged {
             Outcome::PlannerPanicked
             | Outcome::PlannerCrashed
             | Outcome::PlannerHung
-            | Outcome::PlannerProtocol => row::of_lost_run(encounter, trace.outcome),
+            | Outcome::PlannerProtocol => {
+                let planner_detail = trace.planner_detail.clone();
+                RunRow { planner_detail, ..row::of_lost_run(encounter, trace.outcome) }
+            }
             _ => {
                 let digest = Digest::of_trace(trace);
                 let mut row = row::of_run(encounter, trace, digest, &self.judgement);

@@ -51,6 +51,7 @@ pub fn of_run(encounter: &Encounter, trace: &Trace, digest: Digest, judged: &Jud
         row.energy_lost_j = Some(contact.energy_lost_j);
     }
     row.events = trace.events;
+    row.planner_detail = trace.planner_detail.clone();
     row.checks = Check::ALL
         .into_iter()
         .map(|check| match judged.worst(check) {
@@ -75,6 +76,7 @@ fn start(encounter: &Encounter, outcome: Outcome, digest: Digest) -> RunRow {
         let start = &target.start;
         Relative::new(own.position_m, own.psi_rad, start.position_m, start.psi_rad)
     });
+    let intents: Vec<&str> = encounter.targets.iter().map(|t| t.intent.name()).collect();
     RunRow {
         id: encounter.id.clone(),
         outcome,
@@ -83,6 +85,8 @@ fn start(encounter: &Encounter, outcome: Outcome, digest: Digest) -> RunRow {
         targets: encounter.targets.len() as u8,
         class: None,
         ambiguous: false,
+        intents: intents.join("+"),
+        sensing: encounter.sensing.name().to_owned(),
         own_speed_mps: own.speed_mps,
         target_speed_mps: first.map(|t| t.start.speed_mps),
         target_length_m: first.map(|t| t.hull.length_m),
@@ -110,6 +114,7 @@ fn start(encounter: &Encounter, outcome: Outcome, digest: Digest) -> RunRow {
         impulse_ns: None,
         energy_lost_j: None,
         events: PlannerEvents::default(),
+        planner_detail: None,
         checks: Vec::new(),
         judges_disagree: None,
     }

@@ -30,6 +30,10 @@ pub struct RunRow {
     pub class: Option<EncounterClass>,
     /// Another class was within 2 degrees.
     pub ambiguous: bool,
+    /// What each target means to do, in their order, joined by `+`; empty without targets.
+    pub intents: String,
+    /// What the planner can perceive.
+    pub sensing: String,
 
     /// Own speed at the start, m/s.
     pub own_speed_mps: f64,
@@ -89,6 +93,8 @@ pub struct RunRow {
     pub energy_lost_j: Option<f64>,
     /// What the planner counted.
     pub events: PlannerEvents,
+    /// The last words of a planner that failed; absent where it did not, or said nothing.
+    pub planner_detail: Option<String>,
     /// One cell for each check, in the order of `Check::ALL`.
     pub checks: Vec<CheckCell>,
     /// The second judge disagrees with the first; absent where it was not asked.

@@ -42,6 +42,8 @@ pub struct Trace {
     pub alerts: Vec<Alert>,
     /// What the planner counted.
     pub events: PlannerEvents,
+    /// The last words of a planner that failed. No part of the digest.
+    pub planner_detail: Option<String>,
     /// The contact that ended the run.
     pub contact: Option<Contact>,
     /// Own ship came to her last waypoint, by the condition that ends a run which goes on to it.

@@ -180,6 +180,7 @@ fn sailed(own: &Script, targets: &[Script], samples: usize) -> Trace {
         alerts: vec![],
         events: PlannerEvents::default(),
         contact: None,
+        planner_detail: None,
         goal_reached: false,
         nominal: None,
         last_minute: None,
