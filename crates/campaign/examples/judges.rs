@@ -5,6 +5,7 @@
 
 use campaign::judges::{Disagreement, Judges};
 use campaign::plan::Build;
+use campaign::spec::RunTable;
 use campaign::worker::{Shop, Worker};
 use campaign::{CampaignFile, Error, Overrides};
 use std::collections::BTreeMap;
@@ -38,8 +39,9 @@ fn main() -> Result<(), Error> {
     let shop = Shop::new(plan, &registry)?;
     let mut worker = Worker::new(&shop)?;
     let rule_set = plan.rules.rule_set()?;
-    let mut both = Judges::new(rule_set.clone(), true)?;
-    let mut first = Judges::new(rule_set, false)?;
+    let asked = |second_judge| RunTable { second_judge, ..plan.run };
+    let mut both = Judges::new(rule_set.clone(), &asked(true))?;
+    let mut first = Judges::new(rule_set, &asked(false))?;
     let beat = AtomicU64::new(0);
     let (mut whole, mut one, mut two) = (Duration::ZERO, Duration::ZERO, Duration::ZERO);
     let mut kinds: BTreeMap<String, (u64, Vec<String>)> = BTreeMap::new();
@@ -47,11 +49,12 @@ fn main() -> Result<(), Error> {
     for stratum in 0..plan.strata.len() as u32 {
         for j in 0..plan.encounters_per_stratum {
             let start = now();
-            let run = worker.run(stratum, j, &beat)?;
+            let mut run = worker.run(stratum, j, &beat)?;
             let ran = now();
-            first.judge(&run.trace);
+            first.judge(&run.encounter, &mut run.trace);
             let judged = now();
-            let found = both.judge(&run.trace).disagreements.unwrap_or_default();
+            let found =
+                both.judge(&run.encounter, &mut run.trace).disagreements.unwrap_or_default();
             two += now() - judged;
             one += judged - ran;
             whole += ran - start;

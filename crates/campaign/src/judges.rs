@@ -5,7 +5,8 @@
 //! code with the first, so a difference shows a slip of one of them. Reference: rules
 //! specification, section 12.
 
-use crate::{Error, row};
+use crate::spec::RunTable;
+use crate::{Error, last_minute, row};
 use record::verdict::Judgement;
 use record::{Check, Digest, Encounter, Outcome, RunRow, Status, Trace, Verdict};
 use rules::{PortInExtremis, RuleSet, StageMode};
@@ -16,6 +17,7 @@ use stl::{Finding, Robustness};
 pub struct Judges {
     first: rules::Judge,
     second: Option<stl::Params>,
+    last_minute: bool,
 }
 
 /// What the judges said of one run.
@@ -45,18 +47,32 @@ pub struct Disagreement {
 }
 
 impl Judges {
-    /// The judges of a rule set, the second one if it is wanted.
+    /// The judges of a rule set, as a campaign asks for them: with the second one, and with the
+    /// last safe instants.
     ///
     /// # Errors
     /// The second judge is wanted and cannot express the rule set.
-    pub fn new(rules: RuleSet, second: bool) -> Result<Self, Error> {
-        let second = second.then(|| params(&rules)).transpose()?;
-        Ok(Self { first: rules::Judge::new(rules), second })
+    pub fn new(rules: RuleSet, run: &RunTable) -> Result<Self, Error> {
+        let second = run.second_judge.then(|| params(&rules)).transpose()?;
+        Ok(Self { first: rules::Judge::new(rules), second, last_minute: run.last_minute })
     }
 
-    /// Judges one run.
-    pub fn judge(&mut self, trace: &Trace) -> Judged {
-        let judgement = self.first.judge(trace);
+    /// Judges one run. Where the last safe instants are wanted they are put into the trace: which
+    /// pairs need them, and which turns are left to own ship, is known from a first look.
+    pub fn judge(&mut self, encounter: &Encounter, trace: &mut Trace) -> Judged {
+        let mut judgement = self.first.judge(trace);
+        (trace.last_minute, trace.unavoidable) = (None, None);
+        let near_miss_m = self.first.rules().distance.r_nm_m;
+        if let Some(nominal) = trace.nominal.as_ref().filter(|_| self.last_minute)
+            && let Some(found) =
+                last_minute::find(encounter, nominal, &judgement.pairs, near_miss_m)
+        {
+            let again = found.pairs.iter().any(Option::is_some);
+            (trace.last_minute, trace.unavoidable) = (Some(found.pairs), Some(found.unavoidable));
+            if again {
+                judgement = self.first.judge(trace);
+            }
+        }
         let disagreements = self
             .second
             .as_ref()
@@ -73,7 +89,10 @@ impl Judged {
             Outcome::PlannerPanicked
             | Outcome::PlannerCrashed
             | Outcome::PlannerHung
-            | Outcome::PlannerProtocol => row::of_lost_run(encounter, trace.outcome),
+            | Outcome::PlannerProtocol => {
+                let planner_detail = trace.planner_detail.clone();
+                RunRow { planner_detail, ..row::of_lost_run(encounter, trace.outcome) }
+            }
             _ => {
                 let digest = Digest::of_trace(trace);
                 let mut row = row::of_run(encounter, trace, digest, &self.judgement);

@@ -10,6 +10,7 @@ pub mod error;
 pub mod folder;
 pub mod inflight;
 pub mod judges;
+pub mod last_minute;
 pub mod part;
 pub mod pipeline;
 pub mod plan;

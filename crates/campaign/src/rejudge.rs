@@ -150,7 +150,6 @@ struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     fn new(job: &'a Rejudge<'a>, shop: &'a Shop<'a>) -> Result<Self, Error> {
-        let second = job.plan.run.second_judge;
         let beat = Arc::new(AtomicU64::new(0));
         engine::watch_for_panics(&beat);
         Ok(Self {
@@ -160,7 +159,7 @@ impl<'a> Bench<'a> {
             judges: job
                 .rules
                 .iter()
-                .map(|rules| Judges::new(rules.clone(), second))
+                .map(|rules| Judges::new(rules.clone(), &job.plan.run))
                 .collect::<Result<_, _>>()?,
             beat,
         })
@@ -183,8 +182,11 @@ impl<'a> Bench<'a> {
                 stored.id, run.row.digest, stored.digest
             )));
         }
-        let Run { encounter, trace, rejected, .. } = &run;
-        let rows = self.judges.iter_mut().map(|judges| judges.judge(trace).row(encounter, trace));
-        Ok(Again { rows: rows.collect(), rejected: *rejected })
+        let Run { encounter, mut trace, rejected, .. } = run;
+        let rows = self.judges.iter_mut().map(|judges| {
+            let judged = judges.judge(&encounter, &mut trace);
+            judged.row(&encounter, &trace)
+        });
+        Ok(Again { rows: rows.collect(), rejected })
     }
 }

@@ -66,6 +66,8 @@ pub struct RunTable {
     pub twice_run_share: f64,
     /// Whether the second judge is asked about every run too.
     pub second_judge: bool,
+    /// Whether the last safe instants are looked for, and the runs in which nothing could help.
+    pub last_minute: bool,
 }
 
 impl RunTable {

@@ -91,7 +91,7 @@ impl<'a> Worker<'a> {
                 .rules
                 .iter()
                 .map(|(name, rules)| {
-                    let judges = Judges::new(rules.clone(), shop.plan.run.second_judge)?;
+                    let judges = Judges::new(rules.clone(), &shop.plan.run)?;
                     Ok((name.clone(), judges))
                 })
                 .collect::<Result<_, Error>>()?,
@@ -134,7 +134,7 @@ impl<'a> Worker<'a> {
         }
         let key = self.shop.plan.rules.key(encounter.own.hull.length_m);
         let judges = self.judges.get_mut(key).expect("the plan found a profile for every length");
-        let judged = judges.judge(&trace);
+        let judged = judges.judge(&encounter, &mut trace);
         let row = judged.row(&encounter, &trace);
         let (judgement, disagreements) = (judged.judgement, judged.disagreements);
         Ok(Run { encounter, trace, judgement, disagreements, row, rejected })

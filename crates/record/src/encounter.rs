@@ -163,6 +163,22 @@ pub enum Intent {
     Planner(String),
 }
 
+impl Intent {
+    /// The word used in files: what she means to do, without its numbers.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::HoldCourse => "hold_course",
+            Self::Track(_) => "track",
+            Self::Alter { .. } => "alter",
+            Self::Turns(_) => "turns",
+            Self::Duty(Conduct { manner: Manner::Complies, .. }) => "complies",
+            Self::Duty(Conduct { manner: Manner::Neglects, .. }) => "neglects",
+            Self::Duty(Conduct { manner: Manner::WrongWay, .. }) => "wrong_way",
+            Self::Planner(_) => "planner",
+        }
+    }
+}
+
 /// One turn of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Turn {

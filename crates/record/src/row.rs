@@ -31,6 +31,10 @@ pub struct RunRow {
     pub class: Option<EncounterClass>,
     /// Another class was within 2 degrees.
     pub ambiguous: bool,
+    /// What each target means to do, in their order, joined by `+`; empty without targets.
+    pub intents: String,
+    /// What the planner can perceive.
+    pub sensing: String,
 
     /// Own speed at the start, m/s.
     pub own_speed_mps: f64,
@@ -76,9 +80,10 @@ pub struct RunRow {
     pub apparent: Reaction,
     /// Signed size of the first alteration, radians.
     pub first_turn_rad: Option<f64>,
-    /// Distance sailed and still to sail, less the straight one, metres.
+    /// Distance sailed up to the passage of the goal, and still to sail to it, less the planned
+    /// one, metres.
     pub extra_distance_m: Option<f64>,
-    /// The last waypoint was reached.
+    /// The last waypoint was reached, by the condition that ends a run which goes on to it.
     pub goal_reached: bool,
 
     /// Impact speed, m/s.
@@ -89,6 +94,8 @@ pub struct RunRow {
     pub energy_lost_j: Option<f64>,
     /// What the planner counted.
     pub events: PlannerEvents,
+    /// The last words of a planner that failed; absent where it did not, or said nothing.
+    pub planner_detail: Option<String>,
     /// One cell for each check, in the order of `Check::ALL`.
     pub checks: Vec<CheckCell>,
     /// The second judge disagrees with the first; absent where it was not asked.

@@ -15,6 +15,16 @@ pub enum Sensing {
     AisRadar(Box<AisRadar>),
 }
 
+impl Sensing {
+    /// The word used in files.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Perfect { .. } => "perfect",
+            Self::AisRadar(_) => "ais_radar",
+        }
+    }
+}
+
 /// Sensors and tracker of own ship. Her own position is known exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AisRadar {

@@ -42,13 +42,21 @@ pub struct Trace {
     pub alerts: Vec<Alert>,
     /// What the planner counted.
     pub events: PlannerEvents,
+    /// The last words of a planner that failed. No part of the digest.
+    pub planner_detail: Option<String>,
     /// The contact that ended the run.
     pub contact: Option<Contact>,
+    /// Own ship came to her last waypoint, by the condition that ends a run which goes on to it.
+    /// It follows from the tracks and is no part of the digest.
+    pub goal_reached: bool,
     /// The same encounter with own ship on its route, not avoiding.
     pub nominal: Option<Nominal>,
-    /// The last safe instants of each pair (rules specification, section 10), where they were
-    /// computed. Not part of the digest: a rule set asks for them.
-    pub last_minute: Option<Vec<LastMinute>>,
+    /// The last safe instants of each pair (rules specification, section 10) that reached stage 3,
+    /// where they were computed. Not part of the digest: they depend on the rule set.
+    pub last_minute: Option<Vec<Option<LastMinute>>>,
+    /// No manoeuvre of own ship from any instant of the nominal track clears all targets; absent
+    /// where it was not computed. No part of the digest either.
+    pub unavoidable: Option<bool>,
 }
 
 impl Trace {

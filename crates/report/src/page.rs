@@ -12,7 +12,7 @@ use crate::{ReportError, case_figure, figure_cpa, figure_map, figure_polar, figu
 use crate::{figure_times, font, player};
 use record::{Check, DistanceKind, Status};
 use serde::Serialize;
-use summary::{BoundedRate, StratumSummary, Tally};
+use summary::{AvoidableRates, BoundedRate, StratumSummary, Tally};
 
 /// All figures of a report, those of the cases last.
 pub(crate) fn figures(input: &ReportInput) -> Vec<Figure> {
@@ -328,13 +328,17 @@ fn onset(tally: &Tally) -> String {
 
 fn unavoidable(whole: &Group) -> Option<String> {
     let asked = whole.tally.avoidable + whole.tally.unavoidable;
-    (asked > 0).then(|| {
+    AvoidableRates::new(&whole.tally).map(|without| {
+        let line = |rate: &BoundedRate| format!("{} of {} ({})", rate.k, rate.n, bounds(rate));
         format!(
             "Of {} encounters that were searched for an escape, {} had none for own ship alone; {} \
-             of those ended in a collision or an unknown outcome. They stay in every rate.",
+             of those ended in a collision or an unknown outcome. They stay in every rate. Without \
+             them: collisions {}, safety radius broken {}.",
             count(asked),
             count(whole.tally.unavoidable),
             count(whole.tally.unavoidable_failed),
+            line(&without.collision),
+            line(&without.safety_radius),
         )
     })
 }
@@ -353,6 +357,9 @@ fn case_view(input: &ReportInput, case: &Case, figure: &Figure) -> CaseView {
     ];
     if let Some(class) = row.class {
         facts.push(format!("class {}", class.name().replace('_', " ")));
+    }
+    if let Some(words) = &row.planner_detail {
+        facts.push(format!("the planner's last words: {words}"));
     }
     facts.push(format!("digest {}", row.digest));
     let sentences = case

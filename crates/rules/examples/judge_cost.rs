@@ -64,12 +64,15 @@ fn encounter(bearing_deg: f64, course_deg: f64) -> Trace {
         alerts: Vec::new(),
         events: PlannerEvents::default(),
         contact: None,
+        planner_detail: None,
+        goal_reached: false,
         nominal: Some(Nominal {
             minima: vec![pair(&nominal).1],
             own: nominal,
             targets: vec![target.clone()],
         }),
         last_minute: None,
+        unavoidable: None,
         own,
         targets: vec![target],
     }

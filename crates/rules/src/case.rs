@@ -8,7 +8,7 @@ use crate::ruleset::{RuleSet, StageMode};
 use crate::runs::TurnRun;
 use crate::signal::OwnSignals;
 use geom::{EncounterClass, Vec2, angle, math};
-use record::{LastInstant, Role};
+use record::{LastInstant, LastMinute, Role};
 
 /// What a check may look at.
 #[derive(Debug)]
@@ -85,9 +85,30 @@ impl<'a> Case<'a> {
         self.action.turn_seen_s.is_some_and(|t_s| t_s < self.onset_s())
     }
 
-    /// The last instant at which own ship alone could still clear, seconds.
+    /// The last instant at which own ship alone could still clear, seconds. Absent where she never
+    /// could: that is held against nobody (section 10 calls it inconclusive).
     pub(crate) fn own_last_s(&self) -> Option<f64> {
-        instant_s(self.life.last_minute()?.own)
+        match self.life.last_minute()?.own {
+            LastInstant::NeverCritical | LastInstant::BeforeStart => None,
+            LastInstant::At(t_s) | LastInstant::Indicative(t_s) => Some(t_s),
+        }
+    }
+
+    /// Whether nothing that own ship was allowed to do from then on cleared.
+    pub(crate) fn had_no_choice(&self, t_s: f64) -> bool {
+        let never = |last: &LastMinute| last.own == LastInstant::BeforeStart;
+        self.life.last_minute().is_some_and(never) || self.own_last_s().is_some_and(|s| t_s > s)
+    }
+
+    /// From when the target alone could no longer avoid contact, seconds; not before own ship can
+    /// know that there is risk.
+    pub(crate) fn target_helpless_s(&self) -> Option<f64> {
+        let last_s = match self.life.last_minute()?.target {
+            LastInstant::NeverCritical => return None,
+            LastInstant::BeforeStart => 0.0,
+            LastInstant::At(t_s) | LastInstant::Indicative(t_s) => t_s,
+        };
+        Some(last_s.max(self.clock_s()))
     }
 
     /// Range between reference points at a time, metres.
@@ -255,14 +276,5 @@ pub(crate) const fn role_of(class: EncounterClass) -> Role {
         EncounterClass::CrossingStbd | EncounterClass::Overtaking => Role::GiveWay,
         EncounterClass::CrossingPort | EncounterClass::Overtaken => Role::StandOn,
         EncounterClass::Static => Role::None,
-    }
-}
-
-/// The time of a last safe instant, where there is one.
-pub(crate) const fn instant_s(instant: LastInstant) -> Option<f64> {
-    match instant {
-        LastInstant::NeverCritical => None,
-        LastInstant::BeforeStart => Some(0.0),
-        LastInstant::At(t_s) | LastInstant::Indicative(t_s) => Some(t_s),
     }
 }

@@ -115,7 +115,7 @@ impl<'a> PairLife<'a> {
     }
 
     pub(crate) fn last_minute(&self) -> Option<&'a LastMinute> {
-        self.trace.last_minute.as_ref().and_then(|all| all.get(self.target))
+        self.trace.last_minute.as_ref().and_then(|all| all.get(self.target)?.as_ref())
     }
 
     /// Smallest distance of the run in the campaign's kind, metres.

@@ -8,7 +8,7 @@
 //! case, and a failure where the rule set has a limit: the literature has none in seconds.
 //! Source: rules specification, section 7.
 
-use crate::case::{Case, instant_s};
+use crate::case::Case;
 use crate::ruling::{Ruling, not_applicable};
 use crate::score;
 use geom::EncounterClass;
@@ -57,7 +57,7 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
 /// Status by time alone.
 pub(crate) fn level(case: &Case<'_>) -> (Status, &'static str) {
     let t = &case.rules().timing;
-    let last_s = case.life.last_minute().and_then(|last| instant_s(last.own));
+    let last_s = case.own_last_s();
     let stage_4_s = case.stage_s(4);
     let Some(acted_s) = case.action.manoeuvre_s else {
         let too_late = case.complete() || stage_4_s.is_some();
@@ -104,7 +104,7 @@ fn margin_s(case: &Case<'_>, status: Status) -> Option<f64> {
     let late_onset = case.onset.seen.range_m <= case.limits_m[1];
     let by_stage =
         if late_onset { Some(case.clock_s() + t.late_onset_fail_s) } else { case.stage_s(4) };
-    let last_s = case.life.last_minute().and_then(|last| instant_s(last.own));
+    let last_s = case.own_last_s();
     let limit = t.react_fail_s.map(|limit_s| case.clock_s() + limit_s);
     [by_stage, last_s, limit].into_iter().flatten().reduce(f64::min).map(|limit| limit - acted_s)
 }

@@ -3,13 +3,13 @@
 //! Rule 17(b): "When, from any cause, the vessel required to keep her course and speed finds
 //! herself so close that collision cannot be avoided by the action of the give-way vessel alone,
 //! she shall take such action as will best aid to avoid collision."
-//! Reading: the moment is the other's last safe instant where it was computed, else the entry of
-//! stage 4. By a few seconds later (or own last safe instant, if sooner) a run of 10 degrees or a
-//! cut of a quarter of the speed must have begun, if the hulls are still to pass within a near
-//! miss. An action begun earlier under 17(a)(ii) satisfies it.
+//! Reading: the moment is the other's last safe instant where it was computed, or the entry of
+//! stage 4, whichever comes first. By a few seconds later (or own last safe instant, if sooner) a
+//! run of 10 degrees or a cut of a quarter of the speed must have begun, if the hulls are still to
+//! pass within a near miss. An action begun earlier under 17(a)(ii) satisfies it.
 //! Source: rules specification, section 9 (R17).
 
-use crate::case::{Case, instant_s};
+use crate::case::Case;
 use crate::ruling::{Ruling, not_applicable};
 use record::{Check, Status, Verdict};
 
@@ -54,10 +54,9 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .done()
 }
 
-/// `t_17b`, seconds.
+/// `t_17b`, seconds: never the later of the two.
 fn moment_s(case: &Case<'_>) -> Option<f64> {
-    let stored = case.life.last_minute().and_then(|last| instant_s(last.target));
-    stored.or(case.stage_s(4))
+    [case.target_helpless_s(), case.stage_s(4)].into_iter().flatten().reduce(f64::min)
 }
 
 /// A substantial run of any side.

@@ -94,7 +94,7 @@ fn wrong_turn(case: &Case<'_>, run: &TurnRun) -> Option<Finding> {
     };
     let t_s = case.life.time_s(run.start);
     let large = run.size_rad.abs() >= case.rules().manoeuvre.substantial_turn_rad;
-    let no_choice = case.own_last_s().is_some_and(|last_s| t_s > last_s);
+    let no_choice = case.had_no_choice(t_s);
     let early = t_s < case.onset_s();
     // (d)(ii) has no warning for a small turn: section 9 gives one for (d)(i) only
     if !large && detail == "FAIL-19D-II" {

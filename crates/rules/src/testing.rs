@@ -212,8 +212,11 @@ impl Scene {
             alerts: Vec::new(),
             events: PlannerEvents::default(),
             contact,
+            planner_detail: None,
+            goal_reached: false,
             nominal: (!self.without_nominal).then(|| self.make_nominal(seconds)),
             last_minute: None,
+            unavoidable: None,
         }
     }
 

@@ -84,6 +84,11 @@ impl Ending {
         }
     }
 
+    /// Whether own ship has been at her goal at any beat so far.
+    pub fn goal_reached(&self) -> bool {
+        self.goal_reached
+    }
+
     /// Looks at the beat at `t_s`; whether the run is over. `to_goal_m` is own ship's distance
     /// from the last waypoint.
     pub fn is_over<'a>(

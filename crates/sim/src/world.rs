@@ -24,6 +24,7 @@ use record::{
     Alert, Contact, ContactWith, Encounter, Intent, Order, Outcome, Pair, PlannerEvents, Purpose,
     ShipTrack, Streams, Trace, Visibility,
 };
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -66,9 +67,11 @@ pub fn run_among(
     if !world.board_peers(peers) {
         return invalid(encounter);
     }
-    let mut pilot = Pilot { planner, beat, mission: mission(encounter, &world.own) };
+    let mission = mission(encounter, &world.own);
+    let mut pilot = Pilot { planner, beat, mission, last_words: None };
     let (outcome, end_s) = world.sail(&mut pilot, scratch);
-    world.into_trace(outcome, end_s, pilot.events())
+    let planner_detail = pilot.last_words.take();
+    Trace { planner_detail, ..world.into_trace(outcome, end_s, pilot.events()) }
 }
 
 /// Below this lower bound every hull distance of a trace is exact, metres: beyond what any rule
@@ -100,21 +103,23 @@ struct Pilot<'a> {
     planner: &'a mut dyn Planner,
     beat: &'a AtomicU64,
     mission: Mission,
+    /// What it said of its own failure.
+    last_words: Option<String>,
 }
+
+/// Longest last words of a planner that are kept, bytes.
+const LAST_WORDS_MAX: usize = 2000;
 
 impl Pilot<'_> {
     fn call<T>(&mut self, f: impl FnOnce(&mut dyn Planner, &Mission) -> T) -> Result<T, Outcome> {
         self.beat.fetch_add(1, Ordering::Relaxed);
         let answer = catch_unwind(AssertUnwindSafe(|| f(self.planner, &self.mission)));
         self.beat.fetch_add(1, Ordering::Relaxed);
-        answer.map_err(|payload| match payload.downcast_ref::<PlannerFailure>() {
-            None => Outcome::PlannerPanicked,
-            Some(failure) => match failure.kind {
-                FailureKind::Hung => Outcome::PlannerHung,
-                FailureKind::Crashed => Outcome::PlannerCrashed,
-                FailureKind::Protocol => Outcome::PlannerProtocol,
-                FailureKind::NonFinite => Outcome::PlannerNonFinite,
-            },
+        answer.map_err(|payload| {
+            let (outcome, words) = end_of_planner(payload.as_ref());
+            self.last_words =
+                words.map(|words| words[..words.floor_char_boundary(LAST_WORDS_MAX)].to_owned());
+            outcome
         })
     }
 
@@ -129,6 +134,22 @@ impl Pilot<'_> {
             passes: events.passes,
         }
     }
+}
+
+/// How an unwinding ends a run, and what the planner said.
+fn end_of_planner(payload: &(dyn Any + Send)) -> (Outcome, Option<&str>) {
+    let Some(failure) = payload.downcast_ref::<PlannerFailure>() else {
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        let words = text.or(payload.downcast_ref::<&str>().copied());
+        return (Outcome::PlannerPanicked, words);
+    };
+    let outcome = match failure.kind {
+        FailureKind::Hung => Outcome::PlannerHung,
+        FailureKind::Crashed => Outcome::PlannerCrashed,
+        FailureKind::Protocol => Outcome::PlannerProtocol,
+        FailureKind::NonFinite => Outcome::PlannerNonFinite,
+    };
+    (outcome, Some(failure.detail.as_str()))
 }
 
 impl<'a> World<'a> {
@@ -385,6 +406,7 @@ impl<'a> World<'a> {
             alerts: self.alerts,
             events,
             contact: self.contact,
+            goal_reached: self.ending.goal_reached(),
             ..invalid(self.encounter)
         }
     }
@@ -451,7 +473,10 @@ fn invalid(encounter: &Encounter) -> Trace {
         alerts: Vec::new(),
         events: PlannerEvents::default(),
         contact: None,
+        planner_detail: None,
+        goal_reached: false,
         nominal: None,
         last_minute: None,
+        unavoidable: None,
     }
 }

@@ -3,7 +3,7 @@
 mod scenes;
 
 use geom::{Vec2, units::deg};
-use planner_api::{Command, Mission, Planner, Situation};
+use planner_api::{Command, FailureKind, Mission, Planner, PlannerFailure, Situation};
 use proptest::prelude::*;
 use record::{
     ContactWith, Digest, Encounter, Outcome, RunUntil, Sensing, ShipTrack, Trace, Vessel,
@@ -79,6 +79,7 @@ fn truncated_and_time_is_up() {
     encounter.own.route[0].position_m = Vec2::new(3000.0, 0.0);
     let there = run(&encounter, &mut hold());
     assert_eq!(there.outcome, Outcome::Completed);
+    assert!(there.goal_reached);
     // turning radius 7 m/s / 6 deg/s = 66.8 m before the goal
     assert!((there.end_s - (3000.0 - 66.8) / 7.0).abs() < 1.0, "{}", there.end_s);
 }
@@ -116,6 +117,30 @@ fn planner_failures_are_outcomes() {
         // reset, 21 beats, events: two counts each
         assert_eq!(beat.load(Ordering::Relaxed), 46);
     }
+}
+
+/// What a planner says of its own failure reaches the trace, and changes no digest.
+#[test]
+fn last_words_of_a_planner_are_kept() {
+    let encounter = meeting(-90.0, 200.0).encounter(kinematic(), kinematic());
+    let failed = |failure: Failure| {
+        let beat = std::sync::Arc::new(AtomicU64::new(0));
+        let mut planner = Failing(failure, beat.clone());
+        sim::run(&encounter, &mut planner, &mut sim::Scratch::default(), &beat)
+    };
+    let crash: Failure = |_| {
+        let detail = "exit status 3; it said: no memory".to_owned();
+        PlannerFailure { kind: FailureKind::Crashed, detail }.raise()
+    };
+    let other: Failure = |_| {
+        PlannerFailure { kind: FailureKind::Crashed, detail: "another word".to_owned() }.raise()
+    };
+    let crashed = failed(crash);
+    assert_eq!(crashed.outcome, Outcome::PlannerCrashed);
+    assert_eq!(crashed.planner_detail.as_deref(), Some("exit status 3; it said: no memory"));
+    assert_eq!(record::Digest::of_trace(&crashed), record::Digest::of_trace(&failed(other)));
+    assert_eq!(failed(|_| panic!("planted")).planner_detail.as_deref(), Some("planted"));
+    assert_eq!(run(&encounter, &mut hold()).planner_detail, None);
 }
 
 #[test]

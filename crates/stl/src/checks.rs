@@ -194,8 +194,11 @@ impl<'a> Case<'a> {
         let Some(shall_act) = duty.shall_act else {
             return false;
         };
-        let own = self.trace.last_minute.as_ref().and_then(|all| all.get(self.target));
-        let own_last = own.and_then(|last| instant(last.own, self.trace.sample_s));
+        let own = self.trace.last_minute.as_ref().and_then(|all| all.get(self.target)?.as_ref());
+        // nothing could help from the start on: that sets no time
+        let own_last = own
+            .filter(|last| last.own != LastInstant::BeforeStart)
+            .and_then(|last| instant(last.own, self.trace.sample_s));
         let grace = samples_of(self.params.shall_act_grace_s, self.trace.sample_s);
         let deadline = own_last.unwrap_or(usize::MAX).min(shall_act + grace).min(duty.end);
         !action.begun_by(deadline, &self.deviation.speed_mps, self.params)
@@ -337,7 +340,8 @@ impl<'a> Case<'a> {
     fn not_by_radar(&self, duty: &Duty, own: &Action) -> Claim {
         let p = self.params;
         let pair = self.pair();
-        let too_late = self.trace.last_minute.as_ref().and_then(|all| all.get(self.target));
+        let too_late =
+            self.trace.last_minute.as_ref().and_then(|all| all.get(self.target)?.as_ref());
         let too_late = too_late.and_then(|last| instant(last.own, self.trace.sample_s));
         let latest = |k: usize| {
             own.turns

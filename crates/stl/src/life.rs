@@ -211,13 +211,18 @@ fn duty(
             *k >= stage_3 && streak > hold
         })
     });
-    let alone = trace.last_minute.as_ref().and_then(|all| all.get(target)).and_then(|last| {
-        match last.target {
-            LastInstant::At(t) | LastInstant::Indicative(t) => Some(samples_of(t, trace.sample_s)),
-            LastInstant::BeforeStart => Some(0),
-            LastInstant::NeverCritical => None,
-        }
-    });
+    let alone =
+        trace.last_minute.as_ref().and_then(|all| all.get(target)?.as_ref()).and_then(|last| {
+            match last.target {
+                LastInstant::At(t) | LastInstant::Indicative(t) => {
+                    Some(samples_of(t, trace.sample_s))
+                }
+                LastInstant::BeforeStart => Some(0),
+                LastInstant::NeverCritical => None,
+            }
+        });
+    // own ship owes nothing before she can know of the risk
+    let alone = alone.map(|k| k.max(onset).max(begin));
     let shall_act = [alone, stages[2]].into_iter().flatten().min().filter(|k| *k <= end);
     Duty {
         class: start.class,

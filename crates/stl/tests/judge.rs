@@ -224,8 +224,12 @@ fn by_radar_alone_not_to_port() {
     // Where no alternative was left, the letter is not held against her.
     let mut late = port.clone();
     let gone = LastInstant::At(10.0);
-    late.last_minute =
-        Some(vec![LastMinute { own: gone, own_any_turn: gone, own_near_miss: gone, target: gone }]);
+    late.last_minute = Some(vec![Some(LastMinute {
+        own: gone,
+        own_any_turn: gone,
+        own_near_miss: gone,
+        target: gone,
+    })]);
     expect(&late, Check::R19, Finding::Holds);
     // A faster ship from abaft the beam on the starboard quarter: not toward her.
     let astern = Script::straight(-600.0, 150.0, -14.0, 9.0);

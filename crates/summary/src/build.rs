@@ -2,8 +2,8 @@
 
 use crate::summary::SCHEMA;
 use crate::{
-    BoundedRate, CpaSummary, PairedCounts, PairedRates, SecondJudge, StratumSummary, Summary,
-    SummaryHead, Tallies, Tally, TimeSummary, Times,
+    AvoidableRates, BoundedRate, CpaSummary, PairedCounts, PairedRates, SecondJudge,
+    StratumSummary, Summary, SummaryHead, Tallies, Tally, TimeSummary, Times,
 };
 use record::{Check, EncounterClass, Outcome, Status};
 use std::collections::BTreeMap;
@@ -85,11 +85,34 @@ impl StratumSummary {
             collision_pairs: PairedRates::new(&tally.collision_pairs),
             safety_radius_pairs: PairedRates::new(&tally.safety_radius_pairs),
             unavoidable: (tally.avoidable + tally.unavoidable > 0).then_some(tally.unavoidable),
+            without_unavoidable: AvoidableRates::new(tally),
             n_effective: (tally.weighted > 0).then(|| {
                 let sum = tally.weight_sum.value();
                 sum * sum / tally.weight_square_sum.value()
             }),
         }
+    }
+}
+
+impl AvoidableRates {
+    /// Of a tally; absent where no run was searched for an escape.
+    pub fn new(tally: &Tally) -> Option<Self> {
+        if tally.avoidable + tally.unavoidable == 0 {
+            return None;
+        }
+        let (left_out, n) = (&tally.unavoidable_events, tally.n - tally.unavoidable);
+        Some(Self {
+            collision: BoundedRate::new(
+                tally.collisions - left_out.collisions,
+                tally.unknown_without_collision - left_out.unknown_without_collision,
+                n,
+            ),
+            safety_radius: BoundedRate::new(
+                tally.safety_radius_broken - left_out.breaches,
+                tally.unknown_without_breach - left_out.unknown_without_breach,
+                n,
+            ),
+        })
     }
 }
 

@@ -22,9 +22,9 @@ pub use findings::{Event, Finding, Findings};
 pub use fixed_point::FixedSum;
 pub use risk::PairedCounts;
 pub use summary::{
-    BoundedRate, CpaSummary, PairedRates, SecondJudge, StratumSummary, Summary, SummaryHead,
-    TimeSummary, list_disagreement,
+    AvoidableRates, BoundedRate, CpaSummary, PairedRates, SecondJudge, StratumSummary, Summary,
+    SummaryHead, TimeSummary, list_disagreement,
 };
 pub use tallies::Tallies;
-pub use tally::Tally;
+pub use tally::{Tally, UnavoidableEvents};
 pub use times::Times;

@@ -124,9 +124,22 @@ pub struct StratumSummary {
     pub safety_radius_pairs: PairedRates,
     /// Runs that no manoeuvre of own ship could have cleared; absent where none was asked for.
     pub unavoidable: Option<u64>,
+    /// The headline rates again without those runs; absent where none was asked for.
+    pub without_unavoidable: Option<AvoidableRates>,
     /// What the runs are worth, (sum w)^2 / sum w^2; absent while all weights are 1. Where it is
     /// present the rates above are shares of the draws, not of the population.
     pub n_effective: Option<f64>,
+}
+
+/// The headline rates of the runs that some manoeuvre of own ship could have cleared, and of those
+/// that were not searched.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AvoidableRates {
+    /// Own ship hit a target.
+    pub collision: BoundedRate,
+    /// The safety radius was broken.
+    pub safety_radius: BoundedRate,
 }
 
 /// k events in n runs with exact two-sided 95 % bounds (Clopper-Pearson).

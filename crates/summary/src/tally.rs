@@ -37,6 +37,8 @@ pub struct Tally {
     pub unavoidable: u64,
     /// Unavoidable ones that collided, or are unknown.
     pub unavoidable_failed: u64,
+    /// Unavoidable ones that collided, that broke the safety radius, and the unknown ones of each.
+    pub unavoidable_events: UnavoidableEvents,
     /// Runs in which the last waypoint was reached.
     pub goal_reached: u64,
     /// Runs that the second judge was asked about, and those in which it disagreed.
@@ -78,6 +80,19 @@ struct ClassCounts {
 /// Distances beyond this are counted together, metres.
 const CPA_END_M: u32 = 20_000;
 
+/// What is left out of the rates of avoidable runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct UnavoidableEvents {
+    /// Own ship hit a target.
+    pub collisions: u64,
+    /// The safety radius was broken.
+    pub breaches: u64,
+    /// Unknown runs that did not collide before.
+    pub unknown_without_collision: u64,
+    /// Unknown runs that had not broken the safety radius before.
+    pub unknown_without_breach: u64,
+}
+
 impl Default for Tally {
     fn default() -> Self {
         let class = ClassCounts { n: 0, checks: vec![[0; STATUSES]; Check::COUNT] };
@@ -94,6 +109,7 @@ impl Default for Tally {
             avoidable: 0,
             unavoidable: 0,
             unavoidable_failed: 0,
+            unavoidable_events: UnavoidableEvents::default(),
             goal_reached: 0,
             second_judge_asked: 0,
             judges_disagree: 0,
@@ -134,6 +150,13 @@ impl Tally {
         self.unavoidable += u64::from(row.unavoidable == Some(true));
         self.unavoidable_failed +=
             u64::from(row.unavoidable == Some(true) && (collided || row.unknown));
+        if row.unavoidable == Some(true) {
+            let events = &mut self.unavoidable_events;
+            events.collisions += u64::from(collided);
+            events.breaches += u64::from(breach);
+            events.unknown_without_collision += u64::from(row.unknown && !collided);
+            events.unknown_without_breach += u64::from(row.unknown && !breach);
+        }
         self.goal_reached += u64::from(row.goal_reached);
         self.second_judge_asked += u64::from(row.judges_disagree.is_some());
         self.judges_disagree += u64::from(row.judges_disagree == Some(true));
@@ -275,6 +298,13 @@ impl Tally {
             avoidable,
             unavoidable,
             unavoidable_failed,
+            unavoidable_events:
+                UnavoidableEvents {
+                    collisions: unavoidable_collisions,
+                    breaches: unavoidable_breaches,
+                    unknown_without_collision: unavoidable_unknown_without_collision,
+                    unknown_without_breach: unavoidable_unknown_without_breach,
+                },
             goal_reached,
             second_judge_asked,
             judges_disagree,
@@ -305,6 +335,10 @@ impl Tally {
             avoidable,
             unavoidable,
             unavoidable_failed,
+            unavoidable_collisions,
+            unavoidable_breaches,
+            unavoidable_unknown_without_collision,
+            unavoidable_unknown_without_breach,
             goal_reached,
             second_judge_asked,
             judges_disagree,

@@ -5,7 +5,7 @@ use record::{
     Check, CheckCell, Digest, EncounterClass, EncounterId, Outcome, PlannerEvents, Reaction,
     RunRow, Seed, Status,
 };
-use summary::{BoundedRate, Summary, SummaryHead, Tallies};
+use summary::{AvoidableRates, BoundedRate, Summary, SummaryHead, Tallies};
 
 fn row(stratum: &str, j: u64) -> RunRow {
     RunRow {
@@ -16,6 +16,8 @@ fn row(stratum: &str, j: u64) -> RunRow {
         targets: 1,
         class: Some(EncounterClass::HeadOn),
         ambiguous: false,
+        intents: "hold_course".into(),
+        sensing: "perfect".into(),
         own_speed_mps: 6.0,
         target_speed_mps: Some(9.0),
         target_length_m: Some(40.0),
@@ -42,6 +44,7 @@ fn row(stratum: &str, j: u64) -> RunRow {
         impact_mps: None,
         impulse_ns: None,
         energy_lost_j: None,
+        planner_detail: None,
         events: PlannerEvents::default(),
         checks: vec![CheckCell { status: Status::Pass, margin: Some(1.0) }; Check::COUNT],
         judges_disagree: None,
@@ -231,4 +234,31 @@ proptest! {
             }
         }
     }
+}
+
+/// Encounters that nobody could avoid stay in the headline rates, and a second line leaves them out.
+#[test]
+fn unavoidable_runs_stay_in_the_rates_and_are_left_out_of_the_second_line() {
+    let rows: Vec<RunRow> = (0..10)
+        .map(|j| {
+            let mut row = row("head_on", j);
+            row.unavoidable = Some(j < 3);
+            if j < 4 {
+                (row.outcome, row.cpa_hull_m) = (Outcome::Collision, Some(0.0));
+                row.safety_radius_broken = true;
+            }
+            row.unknown = j == 2 || j == 9;
+            row
+        })
+        .collect();
+    let stratum = &summary_of(&rows).strata[0];
+    assert_eq!((stratum.collision.k, stratum.collision.n), (4, 10));
+    assert_eq!(stratum.unavoidable, Some(3));
+    let without = AvoidableRates {
+        collision: BoundedRate::new(1, 1, 7),
+        safety_radius: BoundedRate::new(1, 1, 7),
+    };
+    assert_eq!(stratum.without_unavoidable, Some(without));
+    let plain = summary_of(&[row("head_on", 0)]);
+    assert_eq!(plain.strata[0].without_unavoidable, None, "nobody asked");
 }

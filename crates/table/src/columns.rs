@@ -54,6 +54,8 @@ pub(crate) fn blank_row() -> RunRow {
         targets: 0,
         class: None,
         ambiguous: false,
+        intents: String::new(),
+        sensing: String::new(),
         own_speed_mps: f64::NAN,
         target_speed_mps: None,
         target_length_m: None,
@@ -81,6 +83,7 @@ pub(crate) fn blank_row() -> RunRow {
         impulse_ns: None,
         energy_lost_j: None,
         events: PlannerEvents::default(),
+        planner_detail: None,
         checks: vec![CheckCell { status: Status::NotEvaluated, margin: None }; Check::COUNT],
         judges_disagree: None,
     }
@@ -102,6 +105,22 @@ macro_rules! optional {
             name: stringify!($field),
             required: false,
             cells: Cells::$kind(|row| row.$field, |row, value| row.$field = Some(value)),
+        }
+    };
+}
+
+macro_rules! text {
+    ($field:ident) => {
+        Column {
+            name: stringify!($field),
+            required: true,
+            cells: Cells::Word(
+                |row| Some(&row.$field),
+                |row, text| {
+                    row.$field = text.to_owned();
+                    true
+                },
+            ),
         }
     };
 }
@@ -203,6 +222,8 @@ pub(crate) const COLUMNS: &[Column] = &[
         ),
     },
     required!(Flag ambiguous),
+    text!(intents),
+    text!(sensing),
     required!(Number own_speed_mps),
     optional!(Number target_speed_mps),
     optional!(Number target_length_m),
@@ -237,6 +258,17 @@ pub(crate) const COLUMNS: &[Column] = &[
     event!("events_class_changes" class_changes),
     event!("events_receding_flagged" receding_flagged),
     event!("events_passes" passes),
+    Column {
+        name: "planner_detail",
+        required: false,
+        cells: Cells::Word(
+            |row| row.planner_detail.as_deref(),
+            |row, words| {
+                row.planner_detail = Some(words.to_owned());
+                true
+            },
+        ),
+    },
     optional!(Flag judges_disagree),
 ];
 

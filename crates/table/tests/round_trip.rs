@@ -27,6 +27,8 @@ fn row(stratum: &str, j: u64) -> RunRow {
         targets: (j % 256) as u8,
         class: EncounterClass::ALL.get((j % 7) as usize).copied(),
         ambiguous: j.is_multiple_of(2),
+        intents: ["", "hold_course", "complies+neglects"][(j % 3) as usize].to_owned(),
+        sensing: ["perfect", "ais_radar"][(j % 2) as usize].to_owned(),
         own_speed_mps: x,
         target_speed_mps: some(0),
         target_length_m: some(1),
@@ -53,6 +55,7 @@ fn row(stratum: &str, j: u64) -> RunRow {
         impact_mps: some(14),
         impulse_ns: some(15),
         energy_lost_j: some(16),
+        planner_detail: [None, Some("said \"no\",\nand left".to_owned())][(j % 2) as usize].clone(),
         events: PlannerEvents {
             inner_loop_cap: j as u32,
             limited: j as u32 + 1,

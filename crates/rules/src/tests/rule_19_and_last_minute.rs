@@ -83,12 +83,12 @@ fn last_minute(own_last: LastInstant, act_at_s: f64) -> Judgement {
     let mut trace =
         Scene::new(own(6.0).hold(act_at_s).turn(40.0, 4.0).hold(400.0), head_on()).trace();
     let never = LastInstant::NeverCritical;
-    trace.last_minute = Some(vec![LastMinute {
+    trace.last_minute = Some(vec![Some(LastMinute {
         own: own_last,
         own_any_turn: own_last,
         own_near_miss: never,
         target: never,
-    }]);
+    })]);
     judge_by(rules(), &trace)
 }
 
@@ -119,4 +119,39 @@ fn last_minute_margin_is_read_from_the_trace() {
     );
     let without = judge(&Scene::new(own(6.0).hold(500.0), head_on()));
     expect(&without, Check::LastMinute, NotEvaluated, "NO-LAST-MINUTE-DATA");
+}
+
+/// A ship that crosses from port goes straight on; own ship turns at a time. Stage 4 is at 277 s.
+fn shall_act(target_last: LastInstant, act_at_s: f64) -> Judgement {
+    let mut trace =
+        Scene::new(own(6.0).hold(act_at_s).turn(60.0, 10.0).hold(700.0), from_port()).trace();
+    let never = LastInstant::NeverCritical;
+    trace.last_minute = Some(vec![Some(LastMinute {
+        own: never,
+        own_any_turn: never,
+        own_near_miss: never,
+        target: target_last,
+    })]);
+    judge_by(rules(), &trace)
+}
+
+#[test]
+fn she_shall_act_from_the_targets_last_instant_or_stage_4() {
+    expect(&shall_act(LastInstant::At(262.0), 255.0), Check::R17Shall, Pass, "");
+    expect(&shall_act(LastInstant::At(262.0), 275.0), Check::R17Shall, Fail, "FAIL-17B");
+    // never the later of the two
+    expect(&shall_act(LastInstant::Indicative(290.0), 279.0), Check::R17Shall, Pass, "");
+    expect(&shall_act(LastInstant::Indicative(290.0), 288.0), Check::R17Shall, Fail, "FAIL-17B");
+    // helpless from the start: the duty waits for the onset of risk
+    let helpless = shall_act(LastInstant::BeforeStart, 280.0);
+    expect(&helpless, Check::R17Shall, Fail, "FAIL-17B");
+    assert_eq!(verdict(&helpless, Check::R17Shall).t_s, helpless.pairs[0].risk_s);
+}
+
+#[test]
+fn what_nothing_could_help_is_not_held_against_her() {
+    let late = last_minute(LastInstant::At(70.0), 80.0);
+    expect(&late, Check::R8Time, Fail, "FAIL-8-AFTER-LAST-INSTANT");
+    let never = last_minute(LastInstant::BeforeStart, 80.0);
+    assert_ne!(verdict(&never, Check::R8Time).status, Fail);
 }

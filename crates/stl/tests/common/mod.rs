@@ -2,8 +2,8 @@
 
 use geom::HullOutline;
 use record::{
-    Contact, ContactWith, DistanceKind, EncounterId, LastMinute, Nominal, Outcome, Pair,
-    PairMinimum, PlannerEvents, Ship, ShipTrack, Trace, Visibility,
+    Contact, ContactWith, DistanceKind, EncounterId, Nominal, Outcome, Pair, PairMinimum,
+    PlannerEvents, Ship, ShipTrack, Trace, Visibility,
 };
 use stl::clearance::{Posed, predicted_clearance_m};
 use stl::{Params, RunParams, Scales, StageClock};
@@ -180,8 +180,11 @@ fn sailed(own: &Script, targets: &[Script], samples: usize) -> Trace {
         alerts: vec![],
         events: PlannerEvents::default(),
         contact: None,
+        planner_detail: None,
+        goal_reached: false,
         nominal: None,
-        last_minute: None::<Vec<LastMinute>>,
+        last_minute: None,
+        unavoidable: None,
     }
 }
 
