@@ -26,7 +26,9 @@ pub(super) fn run(folder: &Path, id: &str, registry: Registry) -> Result<Ended, 
     }
     let registry = super::with_outside(registry, &names)?;
     for (arm, side) in [("baseline", &report.baseline), ("candidate", &report.candidate)] {
-        if side.asked.starts_with("git:") {
+        let build = crate::build::build();
+        let theirs = (&side.identity.engine, &side.identity.planners);
+        if theirs != (&build.engine, &build.planners) {
             println!("{arm} {}: lives in another build and is not run here", side.asked);
             continue;
         }
