@@ -182,3 +182,30 @@ fn watch(beats: &[AtomicU64], limit_s: f64, stop: &AtomicBool) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn builds_that_differ_in_one_hash_are_refused_by_its_name_and_planners_may_differ() {
+        let mine = Identity {
+            engine: "e".into(),
+            encounter_model: "m".into(),
+            rule_set: "r".into(),
+            planners: "p".into(),
+            git_commit: "c".into(),
+        };
+        let other = Identity { planners: "q".into(), git_commit: "d".into(), ..mine.clone() };
+        assert!(mine.must_agree(&other, "the baseline").is_ok());
+        for (name, other) in [
+            ("engine", Identity { engine: "x".into(), ..mine.clone() }),
+            ("encounter_model", Identity { encounter_model: "x".into(), ..mine.clone() }),
+            ("rule_set", Identity { rule_set: "x".into(), ..mine.clone() }),
+        ] {
+            let refused = mine.must_agree(&other, "the anchor").unwrap_err().to_string();
+            let says = format!("the anchor has another `{name}` (x there");
+            assert!(refused.starts_with(&says), "{refused}");
+        }
+    }
+}

@@ -45,7 +45,7 @@ pub fn metric_word(metric: &MetricResult) -> String {
 /// for a PASS, as fixes for a FAIL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Certain {
-    /// Both had the event; where one outcome is certain and the other is not, it may be counted here.
+    /// Both had the event; one of which only the other outcome is certain may be among them.
     pub both: u64,
     /// Only the candidate had it.
     pub breaks: u64,

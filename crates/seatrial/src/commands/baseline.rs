@@ -31,7 +31,7 @@ pub(super) fn run(args: &BaselineArgs, registry: Registry) -> Result<Ended, Erro
         )));
     }
     let spec = GateSpec::parse(&embedded::campaign_text(&args.campaign)?, &args.campaign)?;
-    let arms = Arms { spec: &spec, registry, threads: 1 };
+    let arms = Arms::new(&spec, registry, 1)?;
     let plan = arms.plan(&planner, gate_arms::options(&args.options)?, 0)?;
     let signed = args.signed.as_ref().map(|text| text.trim().to_owned());
     let record = Record {

@@ -102,7 +102,7 @@ impl Job<'_> {
             older.extend(stored(role)?);
         }
         let threads = super::campaign::threads(args.threads)?;
-        let arms = Arms { spec: &self.spec, registry, threads };
+        let arms = Arms::new(&self.spec, registry, threads)?;
         let names = [Some(candidate), args.baseline.as_ref()];
         let names: Vec<&str> = names.into_iter().flatten().map(String::as_str).collect();
         let arms = arms.with(&names)?;
@@ -120,7 +120,7 @@ impl Job<'_> {
         for record in &older {
             ratchets.push(arms.stored(record, &declared.candidate)?);
         }
-        let mine = Side::of(candidate, declared.candidate.clone(), arms.mine()?);
+        let mine = Side::of(candidate, declared.candidate.clone(), arms.mine.clone());
         let interrupted = on_interrupt()?;
         let mut started = start(baseline, mine, ratchets)?;
         let entry = self.entry(&declared, &started);

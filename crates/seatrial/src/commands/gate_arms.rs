@@ -26,10 +26,20 @@ pub(super) struct Side {
 pub(super) struct Arms<'a> {
     pub(super) spec: &'a GateSpec,
     pub(super) registry: Registry,
-    pub(super) threads: usize,
+    /// This binary, found before another is built in its place.
+    pub(super) mine: Launch,
 }
 
-impl Arms<'_> {
+impl<'a> Arms<'a> {
+    /// With the planners of a registry.
+    pub(super) fn new(
+        spec: &'a GateSpec,
+        registry: Registry,
+        threads: usize,
+    ) -> Result<Self, Error> {
+        Ok(Self { spec, registry, mine: launch(threads)? })
+    }
+
     /// The registry with all planners from outside that are named.
     pub(super) fn with(mut self, names: &[&str]) -> Result<Self, Error> {
         for name in names {
@@ -47,18 +57,13 @@ impl Arms<'_> {
         self.spec.plan(&asked, seed, &self.registry, &embedded::rules_text, &build::build())
     }
 
-    /// This binary.
-    pub(super) fn mine(&self) -> Result<Launch, Error> {
-        launch(self.threads)
-    }
-
     /// A planner of this build, or one of another commit. A commit without a planner's name has
     /// the planner that `otherwise` runs, with its options.
     pub(super) fn side(&self, name: &str, options: Table, otherwise: &Plan) -> Result<Side, Error> {
         let seed = otherwise.seed.0;
         let Some(rest) = name.strip_prefix("git:") else {
             let plan = self.plan(name, options, seed)?;
-            return Ok(Side { asked: name.to_owned(), plan, launch: self.mine()? });
+            return Ok(Side { asked: name.to_owned(), plan, launch: self.mine.clone() });
         };
         let plan = match rest.split_once(':') {
             None if options.is_empty() => otherwise.clone(),
@@ -67,8 +72,8 @@ impl Arms<'_> {
         };
         let revision = rest.split_once(':').map_or(rest, |(revision, _)| revision);
         let launch = match super::gate_git::build(revision)? {
-            Some(program) => Launch { program, ..self.mine()? },
-            None => self.mine()?,
+            Some(program) => Launch { program, ..self.mine.clone() },
+            None => self.mine.clone(),
         };
         Ok(Side { asked: name.to_owned(), plan, launch })
     }

@@ -1,6 +1,6 @@
 //! `gate --self-test`: what must not fail does not, and what must fail does.
 
-use super::gate_arms::{self, Arms};
+use super::gate_arms::Arms;
 use crate::cli_gate::GateArgs;
 use crate::exit::Ended;
 use crate::timing::Stopwatch;
@@ -29,7 +29,7 @@ pub(super) fn run(args: &GateArgs, mut spec: GateSpec, registry: Registry) -> Re
     let threads = super::campaign::threads(args.threads)?;
     let mut wanted: Vec<&str> = names.iter().map(String::as_str).collect();
     wanted.push(baseline);
-    let arms = Arms { spec: &spec, registry, threads }.with(&wanted)?;
+    let arms = Arms::new(&spec, registry, threads)?.with(&wanted)?;
     let plan = |name: &str, seed: u64| arms.plan(name, toml::Table::new(), seed);
     let draft = plan(baseline, 0)?;
     let campaign = gate::fresh::campaign_hash(&draft, &spec.table)?;
@@ -43,8 +43,7 @@ pub(super) fn run(args: &GateArgs, mut spec: GateSpec, registry: Registry) -> Re
         tell: &|line| println!("  {line}"),
         stop: &|| interrupted.load(Ordering::Relaxed),
     };
-    let launch = gate_arms::launch(threads)?;
-    let start = |plan: Plan| Child::start(launch.clone(), plan);
+    let start = |plan: Plan| Child::start(arms.mine.clone(), plan);
     let stopwatch = Stopwatch::start();
     // one baseline against many: its rows are kept
     let mut arm = Remembered::new(start(mine.clone())?);
