@@ -83,7 +83,7 @@ struct Started {
 
 /// An older planner; one that stands in the gate already is not run twice.
 enum Ratchet {
-    Own(Child),
+    Own(Box<Child>),
     Same(Echo),
 }
 
@@ -302,7 +302,7 @@ fn start(baseline: Side, candidate: Side, older: Vec<Side>) -> Result<Started, E
             let (child, identity) = side.start()?;
             agree(&identity, &identity.asked)?;
             ratchet_identities.push(identity);
-            ratchets.push(Ratchet::Own(child));
+            ratchets.push(Ratchet::Own(Box::new(child)));
         }
     }
     Ok(Started {
@@ -318,7 +318,7 @@ fn start(baseline: Side, candidate: Side, older: Vec<Side>) -> Result<Started, E
 impl Ratchet {
     fn arm(&mut self) -> &mut dyn Arm {
         match self {
-            Self::Own(child) => child,
+            Self::Own(child) => child.as_mut(),
             Self::Same(echo) => echo,
         }
     }
