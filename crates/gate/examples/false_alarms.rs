@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (beats_a, beats_b) = (beats(threads), beats(threads));
     let mut arm_a = InProcess::new(&shop_a, &a, &beats_a)?;
     let mut arm_b = InProcess::new(&shop_b, &b, &beats_b)?;
-    // all metrics at a margin that no gate reaches: it fails, or it goes to its cap
+    // all metrics at a margin that takes most of the cap to show: most gates fail or reach the cap
     let blocking = spec(pairs, 9.0 / pairs as f64)?.gate_plan(&a.strata, 1, &[])?;
     let passing = only_near(spec(pairs, margin)?.gate_plan(&a.strata, 1, &[])?);
     let study = Study { events: wide.events(), near_m: wide.near_m(), margin };
