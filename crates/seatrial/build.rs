@@ -11,6 +11,10 @@ use std::{env, fs};
 const ENGINE: [&str; 7] = ["geom", "record", "planner-api", "encounter", "sim", "rules", "stats"];
 /// Crates whose sources decide what a planner of the registry orders.
 const PLANNERS: [&str; 1] = ["planners"];
+/// What of the repository this binary is made of: these decide whether the sources were as
+/// committed, and a change of these alone runs this script again.
+const SOURCES: [&str; 5] =
+    ["crates", "campaigns", "Cargo.toml", "Cargo.lock", "rust-toolchain.toml"];
 /// Crates whose sources decide a byte of a report or an evidence pack.
 const RENDERER: [&str; 6] = ["summary", "table", "report", "evidence", "campaign", "seatrial"];
 
@@ -20,7 +24,8 @@ fn main() {
     let rustc = output(&env::var("RUSTC").unwrap_or("rustc".into()), &["--version"], &root);
     let set = |key: &str, value: &str| println!("cargo::rustc-env=SEATRIAL_{key}={value}");
     set("GIT_COMMIT", &output("git", &["rev-parse", "HEAD"], &root).unwrap_or("unknown".into()));
-    let changed = output("git", &["status", "--porcelain", "--untracked-files=no"], &root);
+    let status = ["status", "--porcelain", "--untracked-files=no", "--"];
+    let changed = output("git", &[&status[..], &SOURCES[..]].concat(), &root);
     set("GIT_CLEAN", if changed.as_deref() == Some("") { "true" } else { "false" });
     let rustc = rustc.unwrap_or("unknown".into());
     set("RUSTC", &rustc);
@@ -38,11 +43,20 @@ fn main() {
     set("RENDERER", &hash_sources(&root, &RENDERER, &templates));
     set("LOCK_SHA256", &hex(&sha2::Sha256::digest(&lock)));
     embed_campaigns(&root);
-    for path in ["crates", "campaigns", "Cargo.lock", ".git/HEAD", ".git/index"] {
-        if root.join(path).exists() {
-            println!("cargo::rerun-if-changed={}", root.join(path).display());
+    for path in SOURCES.iter().map(|path| root.join(path)).chain(commit_files(&root)) {
+        if path.exists() {
+            println!("cargo::rerun-if-changed={}", path.display());
         }
     }
+}
+
+/// The files of git that change with the commit. Git is asked for them: in a worktree `.git` is a
+/// file, and the branch lies in the folder that all worktrees share.
+fn commit_files(root: &Path) -> Vec<PathBuf> {
+    let branch = output("git", &["symbolic-ref", "--quiet", "HEAD"], root);
+    let names = ["HEAD", "index", "packed-refs"].map(str::to_owned).into_iter().chain(branch);
+    let place = |name: String| output("git", &["rev-parse", "--git-path", &name], root);
+    names.filter_map(place).map(|path| root.join(path)).collect()
 }
 
 fn output(program: &str, arguments: &[&str], folder: &Path) -> Option<String> {

@@ -22,6 +22,7 @@ const PRODUCT: &[(&str, &str)] = &[
     ("gate", "candidate against baseline: pass, fail or inconclusive"),
     ("baseline", "store the baseline of the gate"),
     ("shrink", "reduce a failing encounter to a small one that fails in the same way"),
+    ("corpus", "run the gate's corpus: every case must get the verdict that its file holds"),
     ("intervals", "check exact binomial intervals against a file of known answers"),
     ("evidence", "write an evidence pack of a finished campaign"),
     ("verify", "check an evidence pack"),

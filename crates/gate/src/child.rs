@@ -96,6 +96,9 @@ impl Child {
                 format!("{name} is no arm of the gate: it said `{said}`")
             }));
         };
+        if self.identity.as_ref().is_some_and(|before| *before != identity) {
+            return Err(Error::Fault(format!("{name} became another build while the gate ran")));
+        }
         self.identity = Some(identity);
         self.process = Some(Process { child, input: Some(input), output });
         Ok(())

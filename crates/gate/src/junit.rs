@@ -3,7 +3,7 @@
 //! A FAIL is a failure; INCONCLUSIVE and "not demonstrated" are errors: not shown is not passed.
 
 use crate::GateReport;
-use crate::text::{metric_word, replay_command};
+use crate::text::{Certain, metric_word, replay_command};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use stats::LayerVerdict;
 
@@ -28,12 +28,10 @@ pub fn xml(report: &GateReport, folder: &str) -> Result<String, String> {
             (None, Some(_)) => LayerVerdict::Pass,
             (None, None) => LayerVerdict::Inconclusive,
         };
-        let counts = &metric.counts_fail;
+        let Certain { breaks, fixes, .. } = Certain::of(metric);
         let words = format!(
-            "{}: {} breaks, {} fixes, {} undetermined in {} pairs",
+            "{}: {breaks} breaks, {fixes} fixes, {} undetermined in {} pairs",
             metric_word(metric),
-            counts.n10,
-            counts.n01,
             metric.undetermined,
             result.pairs
         );

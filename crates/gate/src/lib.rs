@@ -1,20 +1,22 @@
 //! May this change of a planner be merged?
 //!
 //! ```text
-//! gate.toml -> declared plan -> [ baseline and candidate on the same fresh encounters ] -> verdict
 //! gate.toml -> plan -> [ both planners on the same fresh encounters ] -> verdict, report
-//! spec.rs      spec.rs   arm.rs, child.rs, run.rs                        stats::Gate
+//! spec.rs      arm.rs, child.rs, run.rs                          stats::Gate, report.rs
+//! ```
 //!
 //! Where it stands in the flow: after `campaign`, whose workers run the encounters; the rule
 //! itself is pure and lives in `stats`. First file to read: [`run`].
 #![forbid(unsafe_code)]
 
 pub mod arm;
+pub mod baseline;
 pub mod child;
 pub mod corpus;
 pub mod fresh;
 pub mod junit;
 pub mod ledger;
+pub mod memory;
 pub mod metric;
 pub mod mutants;
 pub mod report;
@@ -26,6 +28,7 @@ pub mod spec;
 pub mod text;
 
 pub use arm::{Arm, ArmRow, InProcess};
+pub use baseline::{Record, Role};
 pub use child::Child;
 pub use fresh::FreshKey;
 pub use ledger::Ledger;

@@ -9,7 +9,7 @@ use record::{Check, Outcome, Status};
 use serde::{Deserialize, Serialize};
 use stats::Observation;
 
-/// What is counted.
+/// What is counted, the worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Event {
     /// Own ship's hull touched another hull or a hazard.
@@ -18,10 +18,11 @@ pub enum Event {
     PlannerFailure,
     /// Closer than the safety radius.
     SafetyRadius,
-    /// Closer than a multiple of the safety radius, so that a limit that was lowered shows.
-    Near,
     /// A check of the judge failed.
     Check(Check),
+    /// Closer than a multiple of the safety radius, so that a limit that was lowered shows. The
+    /// least of all: it breaks no limit.
+    Near,
 }
 
 const NAMED: [(&str, Event); 4] = [

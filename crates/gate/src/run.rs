@@ -33,6 +33,8 @@ pub struct PairedRun<'a> {
     pub ratchets: Vec<&'a mut dyn Arm>,
     /// Hears of pairs as they are looked at.
     pub progress: &'a dyn Fn(u64),
+    /// Whether somebody wants it to end before a verdict.
+    pub stop: &'a dyn Fn() -> bool,
 }
 
 impl std::fmt::Debug for PairedRun<'_> {
@@ -61,6 +63,12 @@ impl PairedRun<'_> {
         let mut different = 0;
         while gate.verdict().is_none() {
             let from = gate.next_id();
+            if (self.stop)() {
+                return Err(Error::Incomplete(format!(
+                    "interrupted after {from} pairs without a verdict; the same command begins the \
+                     same attempt again, on the same encounters"
+                )));
+            }
             let ids: Vec<u64> = (from..self.gate.next_look(from)).collect();
             let baseline = self.baseline.rows(&ids)?;
             let candidate = self.candidate.rows(&ids)?;

@@ -6,7 +6,7 @@
 
 use crate::arm::ArmRow;
 use crate::run::{Paired, PairedRun};
-use crate::{Arm, Event};
+use crate::{Arm, Event, GateSpec};
 use campaign::{Error, Plan};
 use record::{EncounterId, Purpose, Seed, Streams};
 use serde::{Deserialize, Serialize};
@@ -22,6 +22,8 @@ pub struct SelfTest<'a> {
     pub near_m: f64,
     /// Hears a line for everything that is found.
     pub tell: &'a dyn Fn(&str),
+    /// Whether somebody wants it to end.
+    pub stop: &'a dyn Fn() -> bool,
 }
 
 impl std::fmt::Debug for SelfTest<'_> {
@@ -44,6 +46,17 @@ pub struct Sameness {
 }
 
 impl Sameness {
+    /// One line for a human reader.
+    pub fn sentence(&self, baseline: &str) -> String {
+        format!(
+            "{baseline} against itself: {}, {} pairs, {} differ in a bit, {} breaks and fixes",
+            crate::text::word(self.verdict),
+            self.pairs,
+            self.different,
+            self.discordant
+        )
+    }
+
     /// Whether the gate behaved.
     pub fn holds(&self) -> bool {
         self.different == 0 && self.discordant == 0 && self.verdict != GateVerdict::Fail
@@ -100,6 +113,15 @@ pub struct Uniformity {
 }
 
 impl Uniformity {
+    /// One line for a human reader.
+    pub fn sentence(&self) -> String {
+        format!(
+            "on independent encounters: {} p-values of {} pairs each, distance from uniform {:.3}, \
+             limit {:.3}",
+            self.sets, self.encounters, self.distance, self.limit
+        )
+    }
+
     /// Whether the p-values pass.
     pub fn holds(&self) -> bool {
         self.distance < self.limit
@@ -124,6 +146,7 @@ impl SelfTest<'_> {
             candidate,
             ratchets: Vec::new(),
             progress: &|_| {},
+            stop: self.stop,
         }
         .run()
     }
@@ -221,12 +244,90 @@ fn ks_limit(n: usize) -> f64 {
     1.9495 / (root + 0.12 + 0.11 / root)
 }
 
-/// The share of planners that were caught.
-pub fn kill_rate(killings: &[Killing]) -> (usize, usize) {
-    (killings.iter().filter(|killing| killing.killed()).count(), killings.len())
+/// What is kept of a self-test.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Report {
+    /// 1.
+    pub schema: u32,
+    /// Whether it was the small one.
+    pub small: bool,
+    /// The planner against which all others ran.
+    pub baseline: String,
+    /// Hash of the sources that decide a number.
+    pub engine: String,
+    /// Seed of the encounters.
+    pub seed: u64,
+    /// The largest number of pairs of each comparison.
+    pub cap_pairs: u64,
+    /// The planner against itself.
+    pub same: Sameness,
+    /// The planner against itself on other encounters.
+    pub uniform: Uniformity,
+    /// Planners that must fail.
+    pub killings: Vec<Killing>,
 }
 
-/// The plans of one planner on the fresh set and on another, independent one.
+impl Report {
+    fn killed(&self) -> usize {
+        self.killings.iter().filter(|killing| killing.killed()).count()
+    }
+
+    /// Whether the gate behaved throughout.
+    pub fn holds(&self) -> bool {
+        self.same.holds() && self.uniform.holds() && self.killed() == self.killings.len()
+    }
+
+    /// One line for a human reader.
+    pub fn sentence(&self) -> String {
+        let most = self.killings.iter().filter(|k| k.killed()).map(|k| k.pairs).max();
+        format!(
+            "{} of {} negative controls and mutants were caught, the slowest after {} pairs",
+            self.killed(),
+            self.killings.len(),
+            most.unwrap_or(0)
+        )
+    }
+
+    /// A page.
+    pub fn markdown(&self) -> String {
+        let mut lines = vec![
+            format!("* {}", self.same.sentence(&self.baseline)),
+            format!("* {}", self.uniform.sentence()),
+            format!("* {} (cap {} pairs)", self.sentence(), self.cap_pairs),
+            String::new(),
+            "| planner | verdict | pairs | of them differ | worse in |".to_owned(),
+            "|---|---|---|---|---|".to_owned(),
+        ];
+        lines.extend(self.killings.iter().map(|killing| {
+            let worse = killing.worse.join(", ");
+            let verdict = crate::text::word(killing.verdict);
+            let Killing { candidate, pairs, different, .. } = killing;
+            format!("| `{candidate}` | {verdict} | {pairs} | {different} | {worse} |")
+        }));
+        lines.join("\n") + "\n"
+    }
+}
+
+/// Negative controls of the small self-test.
+pub const SMALL_CONTROLS: [&str; 3] = ["hold-course", "always-port", "late"];
+/// Faults of its mutants.
+pub const SMALL_FAULTS: [&str; 2] = ["sign-flip", "short-sighted"];
+/// Its margins are this much wider than the campaign's: a neutral change passes after a thousand
+/// pairs instead of thirty thousand.
+const SMALL_MARGIN_FACTOR: f64 = 30.0;
+
+/// Makes a gate small enough for every push.
+pub fn make_small(spec: &mut GateSpec) {
+    spec.table.cap_pairs = 2800;
+    spec.table.look_every_pairs = 70;
+    spec.table.absolute.clear();
+    for metric in &mut spec.table.metric {
+        metric.margin = metric.margin.scaled(SMALL_MARGIN_FACTOR);
+        metric.discordance_plan *= SMALL_MARGIN_FACTOR;
+    }
+}
+
+/// The plan on another, independent set of encounters.
 pub fn independent(plan: &Plan) -> Plan {
     let mut other = plan.clone();
     other.seed = Seed(plan.seed.0 ^ 0x5eed_0000_0000_0001);

@@ -2,11 +2,13 @@
 //!
 //! It is a process of its own because a planner that hangs, aborts or overflows its stack takes
 //! its process with it, and because the planner of another commit lives in another binary.
-//! Standard input: one line with the plan as JSON, then a line for each request:
-//! places, or `case {question}` for a case of the corpus.
+//! Standard input: one line with the plan as JSON, then a line for each request: places, or
+//! `case {question}` for a case of the corpus.
+//!
 //! Standard output, line by line: `hello {identity}`, `b PLACE` (begins), `r {row}` (ended),
 //! `e` (request done), `c [events]` (answer to a case), `x KIND message` (an error: `input` or
 //! `fault`).
+
 use crate::arm::{self, InProcess, Step};
 use crate::corpus::{self, Question};
 use crate::fresh;
@@ -59,7 +61,7 @@ impl Identity {
             if mine != theirs {
                 return Err(Error::input(format!(
                     "{whose} has another `{name}` ({} there, {} here): the two cannot be compared; \
-                     take a baseline that was built with this {name}",
+                     take one of the same {name}",
                     short(theirs),
                     short(mine)
                 )));
@@ -140,9 +142,8 @@ fn answer(
 fn case(json: &str, plan: &Plan, registry: &Registry, beat: &AtomicU64) -> Result<(), Error> {
     let question: Question =
         serde_json::from_str(json).map_err(|e| Error::input(format!("a case: {e}")))?;
-    let Question { encounter, rules, events } = question;
-    let mut planner = corpus::make(registry, &plan.planner.name, &plan.planner.options)?;
-    let had = corpus::events(&encounter, planner.as_mut(), &rules, &events, beat)?;
+    let planner = (plan.planner.name.as_str(), &plan.planner.options);
+    let had = corpus::events(&question, registry, planner, beat)?;
     let had = serde_json::to_string(&had).map_err(|e| Error::Fault(e.to_string()))?;
     say(&format!("c {had}"));
     Ok(())
@@ -178,6 +179,33 @@ fn watch(beats: &[AtomicU64], limit_s: f64, stop: &AtomicBool) {
             if *looks >= looks_max {
                 std::process::exit(i32::from(engine::EXIT_HUNG));
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn builds_that_differ_in_one_hash_are_refused_by_its_name_and_planners_may_differ() {
+        let mine = Identity {
+            engine: "e".into(),
+            encounter_model: "m".into(),
+            rule_set: "r".into(),
+            planners: "p".into(),
+            git_commit: "c".into(),
+        };
+        let other = Identity { planners: "q".into(), git_commit: "d".into(), ..mine.clone() };
+        assert!(mine.must_agree(&other, "the baseline").is_ok());
+        for (name, other) in [
+            ("engine", Identity { engine: "x".into(), ..mine.clone() }),
+            ("encounter_model", Identity { encounter_model: "x".into(), ..mine.clone() }),
+            ("rule_set", Identity { rule_set: "x".into(), ..mine.clone() }),
+        ] {
+            let refused = mine.must_agree(&other, "the anchor").unwrap_err().to_string();
+            let says = format!("the anchor has another `{name}` (x there");
+            assert!(refused.starts_with(&says), "{refused}");
         }
     }
 }

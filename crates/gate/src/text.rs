@@ -41,9 +41,36 @@ pub fn metric_word(metric: &MetricResult) -> String {
     }
 }
 
+/// Pairs of which both outcomes are known. The tests count the undetermined ones besides: as breaks
+/// for a PASS, as fixes for a FAIL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Certain {
+    /// Both had the event; one of which only the other outcome is certain may be among them.
+    pub both: u64,
+    /// Only the candidate had it.
+    pub breaks: u64,
+    /// Only the baseline had it.
+    pub fixes: u64,
+}
+
+impl Certain {
+    /// Of a metric.
+    pub fn of(metric: &MetricResult) -> Self {
+        let (pass, fail) = (&metric.counts_pass, &metric.counts_fail);
+        let both = fail.n11.min(pass.n11);
+        Self { both, breaks: fail.n10, fixes: pass.n01 }
+    }
+}
+
 /// The command that shows a new failure; `folder` is where `gate.json` lies.
 pub fn replay_command(folder: &str, encounter: &record::EncounterId) -> String {
     format!("cargo xtask gate --replay {encounter} --out {folder}")
+}
+
+/// One line for a case of the corpus.
+pub fn case_line(case: &crate::corpus::Case) -> String {
+    let does: Vec<&str> = case.found.events.iter().map(|event| event.name()).collect();
+    format!("{}: {} does {}", case.name, case.found.planner, does.join(", "))
 }
 
 /// The verdict on one screen.
@@ -88,13 +115,10 @@ pub fn terminal(report: &GateReport, folder: &str) -> String {
         "metric", "both", "breaks", "fixes", "unknown", "difference [95 % conf. seq.]", "verdict"
     ));
     for metric in &result.metrics {
-        let counts = &metric.counts_fail;
+        let Certain { both, breaks, fixes } = Certain::of(metric);
         line(format!(
-            "  {:16} {:>7} {:>7} {:>7} {:>7}  {:+.1e} [{:+.1e}, {:+.1e}]   {}",
+            "  {:16} {both:>7} {breaks:>7} {fixes:>7} {:>7}  {:+.1e} [{:+.1e}, {:+.1e}]   {}",
             metric.name,
-            counts.n11,
-            counts.n10,
-            counts.n01,
             metric.undetermined,
             metric.difference.value,
             metric.difference.lower,
@@ -160,12 +184,10 @@ pub fn markdown(report: &GateReport, folder: &str) -> String {
          answer |\n|---|---|---|---|---|---|---|"
         .to_owned());
     for metric in &result.metrics {
+        let Certain { both, breaks, fixes } = Certain::of(metric);
         put(format!(
-            "| {} | {} | {} | {} | {} | {:+.1e} [{:+.1e}, {:+.1e}] | {} |",
+            "| {} | {both} | {breaks} | {fixes} | {} | {:+.1e} [{:+.1e}, {:+.1e}] | {} |",
             metric.name,
-            metric.counts_fail.n11,
-            metric.counts_fail.n10,
-            metric.counts_fail.n01,
             metric.undetermined,
             metric.difference.value,
             metric.difference.lower,

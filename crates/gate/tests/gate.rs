@@ -52,6 +52,7 @@ fn self_test(spec: &GateSpec, strata: &[String]) -> SelfTest<'static> {
         events: spec.events(),
         near_m: spec.near_m(),
         tell: &|_| {},
+        stop: &|| false,
     }
 }
 
@@ -182,4 +183,24 @@ fn a_planner_that_takes_its_process_with_it_costs_its_own_rows_only() {
             }
         }
     }
+}
+
+/// Ctrl-C between two blocks: no verdict, nothing counted as one, and the way to go on is said.
+#[test]
+fn a_gate_that_is_interrupted_has_no_verdict() {
+    let registry = planners::registry();
+    let spec = spec(420);
+    let plan = plan(&spec, &registry, "hold-course", 3);
+    let shop = Shop::new(&plan, &registry).unwrap();
+    let (one, two) = (beats(1), beats(1));
+    let mut a = InProcess::new(&shop, &plan, &one).unwrap();
+    let mut b = InProcess::new(&shop, &plan, &two).unwrap();
+    let asked = std::cell::Cell::new(0);
+    let stop = || {
+        asked.set(asked.get() + 1);
+        asked.get() > 2
+    };
+    let test = SelfTest { stop: &stop, ..self_test(&spec, &plan.strata) };
+    let error = test.compare(&plan, &mut a, &mut b).unwrap_err();
+    assert!(matches!(&error, Error::Incomplete(why) if why.contains("140 pairs")), "{error}");
 }

@@ -1,5 +1,6 @@
 //! The command line: a contract, scripts are written against it.
 
+use crate::cli_gate::{BaselineArgs, CorpusArgs, GateArgs, ShrinkArgs};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -136,6 +137,18 @@ pub(crate) enum Command {
     /// as the answer is shown. The levels, margins and the cap stand in the campaign file.
     #[command(after_help = EXIT_CODES)]
     Gate(GateArgs),
+    /// Store a planner that later changes are measured against
+    ///
+    /// Writes DIR/current.json, release.json or anchor.json: a planner of this commit, with the
+    /// hashes of what its numbers mean, and whom it replaced. The working folder must be clean.
+    #[command(after_help = EXIT_CODES)]
+    Baseline(BaselineArgs),
+    /// Make a failing encounter small while it fails the same way, and keep it in the corpus
+    #[command(after_help = EXIT_CODES)]
+    Shrink(ShrinkArgs),
+    /// Run the corpus: every case must get the verdict that its file holds
+    #[command(after_help = EXIT_CODES)]
+    Corpus(CorpusArgs),
     /// The process that runs one planner for a gate; the gate starts it
     #[command(hide = true)]
     GateArm {
@@ -171,52 +184,6 @@ pub(crate) struct JudgeArgs {
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
     /// No progress and no table
-    #[arg(long)]
-    pub(crate) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct GateArgs {
-    /// The planner of today: a name, git:REV, git:REV:NAME, exec:COMMAND or lib:FILE
-    #[arg(long, value_name = "PLANNER")]
-    pub(crate) baseline: Option<String>,
-    /// The planner that is to replace it: a name, exec:COMMAND or lib:FILE
-    #[arg(long, value_name = "PLANNER")]
-    pub(crate) candidate: Option<String>,
-    /// An option of the baseline, such as radius_factor=0.9; may be given several times
-    #[arg(long = "baseline-option", value_name = "KEY=VALUE")]
-    pub(crate) baseline_options: Vec<String>,
-    /// An option of the candidate; may be given several times
-    #[arg(long = "candidate-option", value_name = "KEY=VALUE")]
-    pub(crate) candidate_options: Vec<String>,
-    /// A campaign file with a table [gate], or the name of one that is built in
-    #[arg(long, value_name = "FILE|NAME", default_value = "gate")]
-    pub(crate) campaign: String,
-    /// The largest number of pairs, instead of the campaign's
-    #[arg(long, value_name = "N")]
-    pub(crate) cap: Option<u64>,
-    /// Name of the change series, whose attempts are counted [default: the git branch]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) series: Option<String>,
-    /// The folder of named encounters that must not be newly broken [default: tests/corpus]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) corpus: Option<PathBuf>,
-    /// The ledger of attempts [default: reports/gate-ledger.jsonl]
-    #[arg(long, value_name = "FILE")]
-    pub(crate) ledger: Option<PathBuf>,
-    /// Worker threads [default: one for each processor]
-    #[arg(long, value_name = "N")]
-    pub(crate) threads: Option<usize>,
-    /// Output folder [default: reports/gate]
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Run one encounter of the gate in --out again under both planners, and draw both
-    #[arg(long, value_name = "ENCOUNTER_ID", conflicts_with_all = ["baseline", "candidate"])]
-    pub(crate) replay: Option<String>,
-    /// Test the gate itself: a planner against itself, and planners that must fail
-    #[arg(long, conflicts_with_all = ["candidate", "replay"])]
-    pub(crate) self_test: bool,
-    /// No progress
     #[arg(long)]
     pub(crate) quiet: bool,
 }

@@ -13,6 +13,7 @@
 
 mod build;
 mod cli;
+mod cli_gate;
 mod commands;
 mod embedded;
 mod exit;

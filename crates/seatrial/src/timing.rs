@@ -37,6 +37,11 @@ impl Stopwatch {
         Self { started: now(), last: now(), stages_s: BTreeMap::new() }
     }
 
+    /// Seconds since the start.
+    pub(crate) fn elapsed_s(&self) -> f64 {
+        (now() - self.started).as_secs_f64()
+    }
+
     /// Ends a stage.
     pub(crate) fn lap(&mut self, stage: &'static str) {
         let at = now();

@@ -1,26 +1,32 @@
 //! `gate`: may this change of a planner be merged?
 
-use crate::cli::GateArgs;
+use crate::say::{say, say_text};
+use super::gate_arms::{self, Arms, Side};
+use crate::cli_gate::GateArgs;
+use crate::embedded;
 use crate::exit::Ended;
 use crate::progress::Progress;
-use crate::say::{say, say_text};
-use crate::{build, embedded};
+use crate::timing::Stopwatch;
 use campaign::{Error, Plan};
-use gate::child::Launch;
-use gate::spec::PlannerSpec;
-use gate::{Arm, ArmIdentity, Child, FreshKey, GateReport, GateSpec, Ledger, PairedRun};
+use gate::memory::{Echo, Heard};
+use gate::{Arm, ArmIdentity, Child, FreshKey, GateReport, GateSpec, Ledger, Paired, PairedRun};
+use gate::{Record, Role};
 use planner_api::Registry;
 use std::cell::Cell;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Where a gate writes, unless it is told otherwise.
 const OUT: &str = "reports/gate";
 /// Where the cases of layer 1 lie, unless it is told otherwise.
-const CORPUS: &str = "tests/corpus";
+pub(super) const CORPUS: &str = "tests/corpus";
+/// Where the stored planners lie, unless it is told otherwise.
+pub(super) const BASELINES: &str = "reports/baseline";
 /// Where attempts are written, unless it is told otherwise.
 const LEDGER: &str = "reports/gate-ledger.jsonl";
+/// Cycles through the strata that are run beforehand, to say how long the gate may take.
+const TIMED_CYCLES: u64 = 30;
 
 pub(super) fn run(args: &GateArgs, registry: Registry) -> Result<Ended, Error> {
     let out = args.out.clone().unwrap_or_else(|| OUT.into());
@@ -32,27 +38,22 @@ pub(super) fn run(args: &GateArgs, registry: Registry) -> Result<Ended, Error> {
         spec.table.cap_pairs = cap;
     }
     if args.self_test {
-        return super::gate_self_test::run(args, &spec, registry);
+        return super::gate_self_test::run(args, spec, registry);
     }
-    let (Some(baseline), Some(candidate)) = (&args.baseline, &args.candidate) else {
-        return Err(Error::input(
-            "the gate compares two planners that run: name them with --baseline and --candidate",
-        ));
-    };
-    refuse_folder(baseline)?;
-    refuse_folder(candidate)?;
-    Job { args, spec, out }.run(baseline, candidate, registry)
+    Job { args, spec, out }.run(registry)
 }
 
-/// Fresh encounters need a baseline that runs.
-fn refuse_folder(name: &str) -> Result<(), Error> {
-    if Path::new(name).is_dir() {
-        return Err(Error::input(format!(
-            "`{name}` is a folder; a gate runs both planners on fresh encounters, so results of \
-             another run cannot take part: name a planner, git:REV, exec:... or lib:..."
-        )));
-    }
-    Ok(())
+/// Set by the first Ctrl-C; the second one ends the process at once.
+pub(super) fn on_interrupt() -> Result<&'static AtomicBool, Error> {
+    static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+    ctrlc::set_handler(|| {
+        if INTERRUPTED.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(crate::exit::INCOMPLETE));
+        }
+        eprintln!("stopping at the next look");
+    })
+    .map_err(|e| Error::Fault(format!("failed to handle Ctrl-C: {e}")))?;
+    Ok(&INTERRUPTED)
 }
 
 struct Job<'a> {
@@ -61,232 +62,289 @@ struct Job<'a> {
     out: PathBuf,
 }
 
-/// A planner with its plan and the binary that runs it.
-struct Side {
-    asked: String,
-    plan: Plan,
-    launch: Launch,
+/// What was settled before anything runs.
+struct Declared {
+    candidate: Plan,
+    campaign_hash: String,
+    key: FreshKey,
+    series: String,
+    plan: stats::GatePlan,
+    feasibility: stats::Feasibility,
+}
+
+/// The arms of a gate, started.
+struct Started {
+    baseline: Heard<Child>,
+    candidate: Heard<Child>,
+    ratchets: Vec<Ratchet>,
+    baseline_identity: ArmIdentity,
+    candidate_identity: ArmIdentity,
+    ratchet_identities: Vec<ArmIdentity>,
+}
+
+/// An older planner; one that stands in the gate already is not run twice.
+enum Ratchet {
+    Own(Box<Child>),
+    Same(Echo),
 }
 
 impl Job<'_> {
-    fn run(&self, baseline: &str, candidate: &str, registry: Registry) -> Result<Ended, Error> {
-        let build = build::build();
-        let registry = super::with_outside(registry, &[candidate.to_owned()])?;
-        let options = |list: &[String]| options(list);
-        let asked = PlannerSpec {
-            name: candidate.to_owned(),
-            options: options(&self.args.candidate_options)?,
+    fn run(&self, registry: Registry) -> Result<Ended, Error> {
+        let args = self.args;
+        let folder = args.baselines.clone().unwrap_or_else(|| BASELINES.into());
+        let stored = |role| Record::read(&folder, role);
+        let current = if args.baseline.is_none() { stored(Role::Current)? } else { None };
+        let Some(candidate) = &args.candidate else { return Err(self.nameless()) };
+        if args.baseline.is_none() && current.is_none() {
+            return Err(self.nameless());
+        }
+        let mut older = Vec::new();
+        for role in [Role::Release, Role::Anchor] {
+            older.extend(stored(role)?);
+        }
+        let threads = super::campaign::threads(args.threads)?;
+        let arms = Arms::new(&self.spec, registry, threads)?;
+        let names = [Some(candidate), args.baseline.as_ref()];
+        let names: Vec<&str> = names.into_iter().flatten().map(String::as_str).collect();
+        let arms = arms.with(&names)?;
+        let mut ledger = Ledger::open(&args.ledger.clone().unwrap_or_else(|| LEDGER.into()))?;
+        let declared = self.declare(candidate, &arms, &ledger, &older)?;
+        let baseline = match (&args.baseline, &current) {
+            (Some(name), _) => {
+                let options = gate_arms::options(&args.baseline_options)?;
+                arms.side(name, options, &declared.candidate)?
+            }
+            (None, Some(record)) => arms.stored(record, &declared.candidate)?,
+            (None, None) => return Err(self.nameless()),
         };
-        let find: campaign::spec::FindRules<'_> = &embedded::rules_text;
-        let draft = self.spec.plan(&asked, 0, &registry, find, &build)?;
-        let campaign_hash = gate::fresh::campaign_hash(&draft, &self.spec.table)?;
-        let outside = outside_bytes(candidate)?;
-        let hash = gate::fresh::candidate_hash(&draft, outside.as_deref())?;
-        let key = FreshKey::new(&campaign_hash, &hash);
-
-        let series = self.args.series.clone().unwrap_or_else(branch);
-        let path = self.args.ledger.clone().unwrap_or_else(|| LEDGER.into());
-        let mut ledger = Ledger::open(&path)?;
-        let attempt = ledger.attempt(&series, &key);
-        let declared = self.spec.gate_plan(&draft.strata, attempt, &[])?;
-        let feasibility = declared.feasibility().map_err(|e| Error::input(e.to_string()))?;
-        say!(
-            "gate {}: {candidate} against {baseline}, seed {}, attempt {attempt} of `{series}`, at \
-             most {} pairs",
-            self.spec.file.name,
-            key.seed(),
-            feasibility.cap
-        );
-        say!("  {}", gate::text::expectation(&feasibility));
-
-        let threads = super::campaign::threads(self.args.threads)?;
-        let mine = Launch {
-            program: std::env::current_exe().map_err(Error::io("find", Path::new("seatrial")))?,
-            arguments: vec!["gate-arm".to_owned()],
-            threads,
-        };
-        let candidate_plan = Plan { seed: record::Seed(key.seed()), ..draft };
-        let candidate =
-            Side { asked: candidate.to_owned(), plan: candidate_plan, launch: mine.clone() };
-        let baseline = self.baseline(baseline, &candidate, mine, registry, &key)?;
-        let entry = gate::ledger::Entry {
-            previous: String::new(),
-            series: series.clone(),
-            attempt,
-            key: key.clone(),
-            campaign_hash: campaign_hash.clone(),
-            baseline: baseline.asked.clone(),
-            candidate: candidate.asked.clone(),
-            cap_pairs: feasibility.cap,
-            state: "started".to_owned(),
-        };
-        let (mut baseline, baseline_identity) = start(baseline)?;
-        let (mut candidate, candidate_identity) = start(candidate)?;
-        candidate_identity.identity.must_agree(&baseline_identity.identity, "the baseline")?;
+        let mut ratchets = Vec::new();
+        for record in &older {
+            ratchets.push(arms.stored(record, &declared.candidate)?);
+        }
+        let mine = Side::of(candidate, declared.candidate.clone(), arms.mine.clone());
+        let interrupted = on_interrupt()?;
+        let mut started = start(baseline, mine, ratchets)?;
+        let entry = self.entry(&declared, &started);
         ledger.append(entry.clone())?;
-
-        let folder = self.args.corpus.clone().unwrap_or_else(|| CORPUS.into());
-        let corpus = gate::corpus::replay(
-            &gate::corpus::read(&folder)?,
-            &embedded::rules_text,
-            &mut |question| baseline.case(question),
-            &mut |question| candidate.case(question),
-        )?;
-        let paired = self.pairs(
-            &declared,
-            &candidate_identity.plan,
-            corpus.clone(),
-            (&mut baseline, &mut candidate),
-        )?;
-        let verdict = paired.result.verdict;
-        let state = gate::text::word(verdict).to_owned();
-        ledger.append(gate::ledger::Entry { state, ..entry })?;
-        let report = GateReport {
-            schema: 1,
-            verdict,
-            title: self.spec.file.title.clone(),
-            campaign_hash,
-            key,
-            series,
-            baseline: baseline_identity,
-            candidate: candidate_identity,
-            ratchets: Vec::new(),
-            false_alarm_budget: declared.alpha_fail + declared.alpha_absolute,
-            declared,
-            feasibility,
-            result: paired.result,
-            corpus,
-            different: paired.different,
-            new_failures: paired.new_failures,
+        let ended = self.answer(&declared, &mut started, threads, interrupted);
+        let state = match &ended {
+            Ok((_, paired)) => gate::text::word(paired.result.verdict),
+            Err(Error::Incomplete(_)) => "interrupted",
+            Err(_) => "no verdict",
         };
-        self.write(&report)?;
+        ledger.append(gate::ledger::Entry { state: state.to_owned(), ..entry })?;
+        let (corpus, paired) = ended?;
+        let report = self.report(declared, started, corpus, paired);
+        super::gate_write::write(&self.out, &report)?;
         say_text!("{}", gate::text::terminal(&report, &self.out.display().to_string()));
-        Ok(match gate::run::exit_code(verdict) {
+        Ok(match gate::run::exit_code(report.verdict) {
             0 => Ended::Done,
             1 => Ended::Failed,
             _ => Ended::Inconclusive,
         })
     }
 
-    fn baseline(
-        &self,
-        name: &str,
-        candidate: &Side,
-        mine: Launch,
-        registry: Registry,
-        key: &FreshKey,
-    ) -> Result<Side, Error> {
-        if let Some(rest) = name.strip_prefix("git:") {
-            let (revision, planner) = rest.split_once(':').unwrap_or((rest, &candidate.asked));
-            let program = super::gate_git::build(revision)?;
-            let mut plan = candidate.plan.clone();
-            if planner != candidate.plan.planner.name {
-                let asked = PlannerSpec { name: planner.to_owned(), ..PlannerSpec::default() };
-                plan = self.spec.plan(
-                    &asked,
-                    key.seed(),
-                    &registry,
-                    &embedded::rules_text,
-                    &build::build(),
-                )?;
-            }
-            return Ok(Side { asked: name.to_owned(), plan, launch: Launch { program, ..mine } });
-        }
-        let registry = if registry.get(name).is_ok() {
-            registry
+    fn nameless(&self) -> Error {
+        let what = if self.args.candidate.is_none() {
+            "name the planner that wants to be merged with --candidate"
         } else {
-            super::with_outside(registry, &[name.to_owned()])?
+            "name the planner of today with --baseline, or store one with `cargo xtask baseline`"
         };
-        let asked =
-            PlannerSpec { name: name.to_owned(), options: options(&self.args.baseline_options)? };
-        let build = build::build();
-        let plan = self.spec.plan(&asked, key.seed(), &registry, &embedded::rules_text, &build)?;
-        Ok(Side { asked: name.to_owned(), plan, launch: mine })
+        Error::input(format!("the gate compares two planners that run: {what}"))
     }
 
-    fn pairs(
+    /// Fixes the encounters, the attempt and the levels; refuses what the cap can never show.
+    fn declare(
         &self,
-        declared: &stats::GatePlan,
-        plan: &Plan,
-        corpus: stats::CorpusResult,
-        (baseline, candidate): (&mut dyn Arm, &mut dyn Arm),
-    ) -> Result<gate::Paired, Error> {
-        let progress = Progress::new("gate", declared.cap_pairs(), self.args.quiet);
+        candidate: &str,
+        arms: &Arms<'_>,
+        ledger: &Ledger,
+        older: &[Record],
+    ) -> Result<Declared, Error> {
+        if candidate.starts_with("git:") {
+            return Err(Error::input(format!(
+                "--candidate {candidate}: the candidate is run by this build; check out that \
+                 revision and name its planner, and give the other as --baseline git:REV"
+            )));
+        }
+        let options = gate_arms::options(&self.args.candidate_options)?;
+        let draft = arms.plan(candidate, options, 0)?;
+        let campaign_hash = gate::fresh::campaign_hash(&draft, &self.spec.table)?;
+        let outside = gate_arms::outside_bytes(candidate)?;
+        let hash = gate::fresh::candidate_hash(&draft, outside.as_deref())?;
+        let key = FreshKey::new(&campaign_hash, &hash);
+        let series = self.args.series.clone().unwrap_or_else(branch);
+        let attempt = ledger.attempt(&series, &key);
+        let table = &self.spec.table;
+        let factors = older.iter().map(|record| match record.role {
+            Role::Anchor => table.anchor_margin_factor,
+            Role::Current | Role::Release => table.release_margin_factor,
+        });
+        let names = older.iter().map(|record| record.role.name().to_owned());
+        let ratchets: Vec<(String, f64)> = names.zip(factors).collect();
+        let plan = self.spec.gate_plan(&draft.strata, attempt, &ratchets)?;
+        let feasibility = plan.feasibility().map_err(|e| Error::input(e.to_string()))?;
+        say!(
+            "gate {}: {candidate}, seed {}, attempt {attempt} of `{series}`, at most {} pairs",
+            self.spec.file.name,
+            key.seed(),
+            feasibility.cap
+        );
+        say!("  {}", gate::text::expectation(&feasibility));
+        let candidate = Plan { seed: record::Seed(key.seed()), ..draft };
+        Ok(Declared { candidate, campaign_hash, key, series, plan, feasibility })
+    }
+
+    fn entry(&self, declared: &Declared, started: &Started) -> gate::ledger::Entry {
+        gate::ledger::Entry {
+            previous: String::new(),
+            series: declared.series.clone(),
+            attempt: declared.plan.attempt,
+            key: declared.key.clone(),
+            campaign_hash: declared.campaign_hash.clone(),
+            baseline: started.baseline_identity.asked.clone(),
+            candidate: started.candidate_identity.asked.clone(),
+            cap_pairs: declared.feasibility.cap,
+            state: "started".to_owned(),
+        }
+    }
+
+    /// Layer 1, then all others.
+    fn answer(
+        &self,
+        declared: &Declared,
+        started: &mut Started,
+        threads: usize,
+        interrupted: &AtomicBool,
+    ) -> Result<(stats::CorpusResult, Paired), Error> {
+        let folder = self.args.corpus.clone().unwrap_or_else(|| CORPUS.into());
+        let corpus = gate::corpus::replay(
+            &gate::corpus::read(&folder)?,
+            &embedded::rules_text,
+            &mut |question| started.baseline.arm.case(question),
+            &mut |question| started.candidate.arm.case(question),
+        )?;
+        started.foretell(declared, threads)?;
+        let progress = Progress::new("gate", declared.plan.cap_pairs(), self.args.quiet);
         let seen = Cell::new(0);
+        let ratchets = started.ratchets.iter_mut().map(Ratchet::arm);
         let paired = PairedRun {
-            gate: declared.clone(),
-            plan,
+            gate: declared.plan.clone(),
+            plan: &declared.candidate,
             events: &self.spec.events(),
             near_m: self.spec.near_m(),
-            corpus,
-            baseline,
-            candidate,
-            ratchets: Vec::new(),
+            corpus: corpus.clone(),
+            baseline: &mut started.baseline,
+            candidate: &mut started.candidate,
+            ratchets: ratchets.collect(),
             progress: &|pairs| {
                 progress.add(pairs - seen.get());
                 seen.set(pairs);
             },
+            stop: &|| interrupted.load(Ordering::Relaxed),
         }
         .run();
         progress.end();
-        paired
+        paired.map(|paired| (corpus, paired))
     }
 
-    fn write(&self, report: &GateReport) -> Result<(), Error> {
-        fs::create_dir_all(&self.out).map_err(Error::io("make", &self.out))?;
-        let folder = self.out.display().to_string();
-        let mut json = serde_json::to_string_pretty(report)
-            .map_err(|e| Error::Fault(format!("failed to encode the result: {e}")))?;
-        json.push('\n');
-        crate::files::write(&self.out.join("gate.json"), json.as_bytes())?;
-        let xml = gate::junit::xml(report, &folder)
-            .map_err(|e| Error::Fault(format!("failed to encode JUnit XML: {e}")))?;
-        crate::files::write(&self.out.join("junit.xml"), xml.as_bytes())?;
-        let page = gate::text::markdown(report, &folder);
-        crate::files::write(&self.out.join("summary.md"), page.as_bytes())?;
-        // the one variable that is read: CI names the page of its job by it
-        if let Some(path) = std::env::var_os("GITHUB_STEP_SUMMARY").map(PathBuf::from) {
-            append(&path, &page)?;
+    fn report(
+        &self,
+        declared: Declared,
+        started: Started,
+        corpus: stats::CorpusResult,
+        paired: Paired,
+    ) -> GateReport {
+        GateReport {
+            schema: 1,
+            verdict: paired.result.verdict,
+            title: self.spec.file.title.clone(),
+            campaign_hash: declared.campaign_hash,
+            key: declared.key,
+            series: declared.series,
+            baseline: started.baseline_identity,
+            candidate: started.candidate_identity,
+            ratchets: started.ratchet_identities,
+            false_alarm_budget: declared.plan.alpha_fail + declared.plan.alpha_absolute,
+            declared: declared.plan,
+            feasibility: declared.feasibility,
+            result: paired.result,
+            corpus,
+            different: paired.different,
+            new_failures: paired.new_failures,
         }
+    }
+}
+
+/// Starts every process, and refuses to compare those whose numbers mean different things.
+fn start(baseline: Side, candidate: Side, older: Vec<Side>) -> Result<Started, Error> {
+    let (mine, theirs) = (candidate.clone(), baseline.clone());
+    let (child, baseline_identity) = baseline.start()?;
+    let baseline = Heard::new(child);
+    let (child, candidate_identity) = candidate.start()?;
+    let candidate = Heard::new(child);
+    let agree = |identity: &ArmIdentity, whose: &str| {
+        candidate_identity.identity.must_agree(&identity.identity, whose)
+    };
+    agree(&baseline_identity, "the baseline")?;
+    let (mut ratchets, mut ratchet_identities) = (Vec::new(), Vec::new());
+    for side in older {
+        let same = if side.is(&theirs) {
+            Some((baseline.echo(), &baseline_identity))
+        } else if side.is(&mine) {
+            Some((candidate.echo(), &candidate_identity))
+        } else {
+            None
+        };
+        if let Some((echo, identity)) = same {
+            ratchet_identities.push(ArmIdentity { asked: side.asked(), ..identity.clone() });
+            ratchets.push(Ratchet::Same(echo));
+        } else {
+            let (child, identity) = side.start()?;
+            agree(&identity, &identity.asked)?;
+            ratchet_identities.push(identity);
+            ratchets.push(Ratchet::Own(Box::new(child)));
+        }
+    }
+    Ok(Started {
+        baseline,
+        candidate,
+        ratchets,
+        baseline_identity,
+        candidate_identity,
+        ratchet_identities,
+    })
+}
+
+impl Ratchet {
+    fn arm(&mut self) -> &mut dyn Arm {
+        match self {
+            Self::Own(child) => child.as_mut(),
+            Self::Same(echo) => echo,
+        }
+    }
+}
+
+impl Started {
+    /// Runs a few pairs, and says how long the gate takes if it goes to its cap.
+    fn foretell(&mut self, declared: &Declared, threads: usize) -> Result<(), Error> {
+        let pairs = (TIMED_CYCLES * declared.plan.cycle()).min(declared.plan.cap_pairs());
+        let ids: Vec<u64> = (0..pairs).collect();
+        let stopwatch = Stopwatch::start();
+        self.baseline.rows(&ids)?;
+        self.candidate.rows(&ids)?;
+        for ratchet in &mut self.ratchets {
+            ratchet.arm().rows(&ids)?;
+        }
+        let pair_s = stopwatch.elapsed_s() / pairs as f64;
+        let minutes = |pairs: u64| pair_s * pairs as f64 / 60.0;
+        say!(
+            "  about {:.1} minutes for 20000 pairs, {:.1} to the cap, on {threads} threads",
+            minutes(20_000),
+            minutes(declared.plan.cap_pairs())
+        );
         Ok(())
     }
-}
-
-fn append(path: &Path, text: &str) -> Result<(), Error> {
-    use std::io::Write;
-    let file = fs::OpenOptions::new().create(true).append(true).open(path);
-    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(Error::io("append to", path))
-}
-
-/// An arm that runs, and who it is.
-fn start(side: Side) -> Result<(Child, ArmIdentity), Error> {
-    let child = Child::start(side.launch, side.plan.clone())?;
-    let identity = child.identity().clone();
-    Ok((child, ArmIdentity { asked: side.asked, identity, plan: side.plan }))
-}
-
-/// `KEY=VALUE` in TOML's own notation, each.
-fn options(list: &[String]) -> Result<toml::Table, Error> {
-    let mut table = toml::Table::new();
-    for text in list {
-        let one: toml::Table = text.parse().map_err(|_| {
-            Error::input(format!("`{text}` is no option; one looks like radius_factor=0.9"))
-        })?;
-        table.extend(one);
-    }
-    Ok(table)
-}
-
-/// What a planner from outside consists of, as far as one file tells.
-fn outside_bytes(name: &str) -> Result<Option<Vec<u8>>, Error> {
-    let command = name.strip_prefix("exec:").or_else(|| name.strip_prefix("lib:"));
-    let Some(command) = command else { return Ok(None) };
-    // a script's interpreter comes first, so every word that is a file counts
-    let mut bytes = Vec::new();
-    for word in command.split_whitespace().filter(|word| Path::new(word).is_file()) {
-        bytes.extend(fs::read(word).map_err(Error::io("read", Path::new(word)))?);
-    }
-    Ok(Some(bytes))
 }
 
 /// The branch of the working folder, the default name of a change series.
@@ -297,13 +355,4 @@ fn branch() -> String {
         .filter(|o| o.status.success())
         .and_then(|o| String::from_utf8(o.stdout).ok().map(|name| name.trim().to_owned()));
     text.filter(|name| !name.is_empty()).unwrap_or_else(|| "unnamed".to_owned())
-}
-
-/// The process that runs one planner for a gate.
-pub(super) fn arm(threads: usize, registry: Registry) -> Result<Ended, Error> {
-    campaign::engine::quiet_planner_panics();
-    gate::serve::serve(threads, &build::build(), |name| {
-        super::with_outside(registry, &[name.to_owned()])
-    })?;
-    Ok(Ended::Done)
 }

@@ -5,51 +5,86 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Builds REV and returns its binary, under a name of its own: the next build of the shared
-/// target folder writes over the one that cargo made.
-pub(super) fn build(revision: &str) -> Result<PathBuf, Error> {
-    let root = git(&["rev-parse", "--show-toplevel"], "this folder is in no git repository")?;
-    let root = Path::new(&root);
-    let wanted = format!("{revision}^{{commit}}");
-    let commit = git(&["rev-parse", "--verify", "--quiet", &wanted], "there is no such revision")
-        .map_err(|_| Error::input(format!("git:{revision}: there is no such revision")))?;
+/// Builds REV and returns its binary; none when REV is what this binary was built from.
+pub(super) fn build(revision: &str) -> Result<Option<PathBuf>, Error> {
+    let commit = commit(revision)?;
+    let mine = crate::build::build();
+    if mine.git_clean && mine.git_commit == commit {
+        return Ok(None);
+    }
+    let root = PathBuf::from(git(&["rev-parse", "--show-toplevel"])?);
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
-    let kept = target.join("gate").join(format!("seatrial-{commit}"));
+    let folder = target.join("gate");
+    let kept = folder.join(format!("seatrial-{commit}"));
     if kept.is_file() {
-        return Ok(kept);
+        return Ok(Some(kept));
     }
-    let tree = target.join("gate").join(format!("tree-{commit}"));
-    fs::create_dir_all(target.join("gate")).map_err(Error::io("make", &target))?;
+    fs::create_dir_all(&folder).map_err(Error::io("make", &folder))?;
+    let tree = folder.join(format!("tree-{commit}"));
     let shown = tree.display().to_string();
-    if !tree.is_dir() {
-        git(&["worktree", "add", "--detach", &shown, &commit], "failed to make a worktree")?;
+    // an interrupted gate may have left one that is not whole
+    if tree.is_dir() {
+        fs::remove_dir_all(&tree).map_err(Error::io("remove", &tree))?;
     }
-    eprintln!("building {revision} ({}) as the baseline", &commit[..12]);
+    git(&["worktree", "prune"])?;
+    git(&["worktree", "add", "--detach", &shown, &commit])?;
+    eprintln!("building {revision} ({}) to run beside the present planner", &commit[..12]);
+    let built = build_tree(&tree, &target, revision, &kept);
+    git(&["worktree", "remove", "--force", &shown])?;
+    built.map(|()| Some(kept))
+}
+
+/// The commit of a revision.
+pub(super) fn commit(revision: &str) -> Result<String, Error> {
+    let wanted = format!("{revision}^{{commit}}");
+    // a word that begins with a dash is no revision, whatever git makes of it
+    let known = git(&["rev-parse", "--verify", "--quiet", "--end-of-options", &wanted]);
+    git(&["rev-parse", "--git-dir"])?;
+    known.map_err(|_| {
+        Error::input(format!(
+            "git:{revision}: this repository has no such revision; a branch, a tag or a commit \
+             will do, and a shallow clone has few"
+        ))
+    })
+}
+
+/// Builds into the shared target folder, where cargo puts the binary in the place of the present
+/// one; that one is put back.
+fn build_tree(tree: &Path, target: &Path, revision: &str, kept: &Path) -> Result<(), Error> {
+    let place = target.join("release").join("seatrial");
+    let present = kept.with_extension("present");
+    let was_there = place.is_file();
+    if was_there {
+        fs::copy(&place, &present).map_err(Error::io("copy", &place))?;
+    }
     let built = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--release", "--locked", "--quiet", "--package", "seatrial"])
-        .current_dir(&tree)
-        .env("CARGO_TARGET_DIR", &target)
+        .current_dir(tree)
+        .env("CARGO_TARGET_DIR", target)
         .status();
     let ended = match built {
+        // by rename, so that a binary under this name is always whole
         Ok(status) if status.success() => {
-            let made = target.join("release").join("seatrial");
-            fs::copy(&made, &kept).map(drop).map_err(Error::io("copy", &made))
+            fs::rename(&place, kept).map_err(Error::io("move", &place))
         }
         Ok(status) => Err(Error::input(format!("git:{revision} does not build ({status})"))),
         Err(error) => Err(Error::input(format!("failed to start cargo: {error}"))),
     };
-    git(&["worktree", "remove", "--force", &shown], "failed to remove the worktree")?;
-    ended.map(|()| kept)
+    if was_there {
+        fs::rename(&present, &place).map_err(Error::io("put back", &place))?;
+    }
+    ended
 }
 
-fn git(arguments: &[&str], otherwise: &str) -> Result<String, Error> {
+/// What git says; an error is the user's to mend.
+pub(super) fn git(arguments: &[&str]) -> Result<String, Error> {
     let output = Command::new("git")
         .args(arguments)
         .output()
         .map_err(|e| Error::input(format!("failed to start git: {e}")))?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
-        return Err(Error::input(format!("{otherwise}: {}", said.trim())));
+        return Err(Error::input(format!("git {}: {}", arguments[0], said.trim())));
     }
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }

@@ -1,7 +1,7 @@
 //! `gate --replay`: one encounter of a gate again, under both planners, with a picture of each.
 
-use crate::exit::Ended;
 use crate::say::say;
+use crate::exit::Ended;
 use campaign::{Error, worker};
 use gate::GateReport;
 use planner_api::Registry;
@@ -27,7 +27,9 @@ pub(super) fn run(folder: &Path, id: &str, registry: Registry) -> Result<Ended, 
     }
     let registry = super::with_outside(registry, &names)?;
     for (arm, side) in [("baseline", &report.baseline), ("candidate", &report.candidate)] {
-        if side.asked.starts_with("git:") {
+        let build = crate::build::build();
+        let theirs = (&side.identity.engine, &side.identity.planners);
+        if theirs != (&build.engine, &build.planners) {
             say!("{arm} {}: lives in another build and is not run here", side.asked);
             continue;
         }

@@ -1,23 +1,27 @@
 //! One file for each command.
 
 mod avoiding_cost;
+mod baseline;
 mod campaign;
 mod compare;
+mod corpus;
 mod engine;
 mod evidence;
 mod finish;
 mod gate;
+mod gate_arms;
 mod gate_git;
 mod gate_replay;
 mod gate_self_test;
+mod gate_write;
 mod intervals;
 mod judge;
 mod planners;
 mod replay;
 mod shards;
+mod shrink;
 mod slurm;
 mod speed;
-
 mod vectors;
 mod verify;
 
@@ -49,7 +53,10 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Merge { dir, shards, quiet } => shards::merge(&dir, &shards, registry, quiet),
         Command::Slurm(args) => slurm::run(&args),
         Command::Gate(args) => gate::run(&args, registry),
-        Command::GateArm { threads } => gate::arm(threads, registry),
+        Command::Baseline(args) => baseline::run(&args, registry),
+        Command::Shrink(args) => shrink::run(&args, registry),
+        Command::Corpus(args) => corpus::run(&args, registry),
+        Command::GateArm { threads } => gate_arms::serve(threads, registry),
         Command::Engine { dir, threads, suspect } => {
             engine::run(&dir, threads, suspect.as_deref(), registry)
         }

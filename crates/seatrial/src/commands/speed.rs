@@ -150,7 +150,7 @@ impl<'a> Bench<'a> {
 }
 
 /// The last safe instants of the pairs that reached stage 3, for the second look of the judge.
-/// Whether there were any.
+/// Whether there are any.
 fn fork(
     encounter: &Encounter,
     trace: &mut Trace,
@@ -162,8 +162,9 @@ fn fork(
         campaign::last_minute::find(encounter, nominal, &first.pairs, near_miss_m)
     });
     let Some(found) = found else { return false };
+    let again = found.pairs.iter().any(Option::is_some);
     (trace.last_minute, trace.unavoidable) = (Some(found.pairs), Some(found.unavoidable));
-    true
+    again
 }
 
 #[expect(clippy::disallowed_methods, reason = "this command measures wall-clock time")]
