@@ -69,6 +69,8 @@ pub struct ReportInput<'a> {
     pub findings: &'a [Found],
     /// The worst encounters, worst first.
     pub cases: &'a [Case],
+    /// The scenes of a campaign of named scenes, in order; each is drawn under its own name.
+    pub scenes: &'a [Case],
 }
 
 /// One column of a comparison.

@@ -17,6 +17,7 @@ mod figure_cpa;
 mod figure_map;
 mod figure_polar;
 mod figure_rates;
+mod figure_scene;
 mod figure_times;
 mod findings;
 mod font;
