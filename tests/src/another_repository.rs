@@ -99,8 +99,15 @@ fn four_languages_give_the_same_campaign_digest() {
             .unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         assert_eq!(root_digest(&path.join(name)), expected, "{name}");
+        let conforms = seatrial(path).args(["conformance", "--planner", planner]).output().unwrap();
+        let said = String::from_utf8_lossy(&conforms.stdout);
+        assert!(conforms.status.success(), "{planner}: {said}");
     }
     // another planner has another digest, so that equality above means something
     run_ok(path, &format!("{CAMPAIGN} --planner plain-vo --out other"));
     assert_ne!(root_digest(&path.join("other")), expected);
+    let output =
+        seatrial(path).args(["conformance", "--planner", "zhuang-as-printed"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("RotationIndifferent: fails in "));
 }
