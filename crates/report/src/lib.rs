@@ -34,6 +34,6 @@ mod write;
 
 pub use error::ReportError;
 pub use figure::{DataTable, Figure};
-pub use input::{Card, Case, Compared, Found, ReportInput};
+pub use input::{Card, Case, Compared, Extra, Found, ReportInput};
 pub use page::css;
 pub use write::{Rendered, case_picture, draw_case, render, write, write_comparison};

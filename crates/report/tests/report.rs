@@ -249,7 +249,8 @@ fn planners_stand_side_by_side_only_over_the_same_encounters() {
     let (a, tallies_a) = data(&classes(), 200, 50);
     let (_, tallies_b) = data(&classes(), 200, 10);
     let b = summary(&tallies_b, &classes(), "hold-course");
-    let column = |summary, tallies, link| Compared { card: &card, summary, tallies, link };
+    let column =
+        |summary, tallies, link| Compared { card: &card, summary, tallies, link, extra: None };
     let columns = [
         column(&a, &tallies_a, "zhuang/report.html"),
         column(&b, &tallies_b, "hold-course/report.html"),

@@ -284,6 +284,31 @@ fn f21_the_corrected_stand_on_ship_crosses_ahead() {
     assert!(run.cpa[0].contact_rad.abs() < FRAC_PI_2, "{:?}", run.cpa[0]);
 }
 
+/// A search over crossings from port: among those in which holding on would have led astern of the
+/// other ship, the corrected planner's action under 17(b) leads across her bow in some.
+#[test]
+fn f21_acting_leads_across_the_bow_where_holding_on_would_not() {
+    let mut stream = PlannerStream::new(21);
+    let (mut corrected, mut hold) = (planner("zhuang-corrected", ""), planner("hold-course", ""));
+    let ahead = |run: &crate::scene::Run| run.cpa[0].contact_rad.abs() < FRAC_PI_2;
+    let (mut astern, mut flipped, mut seen) = (0, 0, 0);
+    while seen < 80 {
+        let (scene, class) = encounter(&mut stream);
+        if class != EncounterClass::CrossingPort {
+            continue;
+        }
+        seen += 1;
+        if ahead(&scene.run(hold.as_mut())) {
+            continue;
+        }
+        astern += 1;
+        let run = scene.run(corrected.as_mut());
+        flipped += u32::from(run.first_turn(10.0) > 0.0 && ahead(&run));
+    }
+    println!("across the bow in {flipped} of {astern} that would have passed astern");
+    assert!(flipped > 5, "{flipped} of {astern}");
+}
+
 #[test]
 fn f22_a_target_at_rest_has_a_side_only_by_its_undefined_course() {
     let side = |beta_deg| strategy::paper_side(EncounterClass::Static, FRAC_PI_2, deg(beta_deg));
