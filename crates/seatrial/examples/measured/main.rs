@@ -10,8 +10,8 @@
 //!
 //! `failures` lists what checks and events found in a result, by class of the encounter, with exact
 //! bounds and the worst encounter. `random` is the table of the paper's own world: distances,
-//! first alterations, the inner loop's cap and the goal. `compare` sets the planners of a comparison
-//! side by side; `scenes` the smallest distances of named scenes.
+//! first alterations, the inner loop's cap and the goal. `compare` sets the planners of a
+//! comparison side by side; `scenes` the smallest distances of named scenes.
 
 mod compare;
 mod failures;
