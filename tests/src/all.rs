@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![expect(clippy::unwrap_used, reason = "everything here is a test; a panic is its failure")]
 
+mod another_repository;
 mod end_to_end;
 mod golden;
 mod judge_again;

@@ -54,6 +54,20 @@ pub enum Check {
     PermutationStable,
 }
 
+impl Check {
+    /// All of them, in order.
+    pub const ALL: [Self; 8] = [
+        Self::Answers,
+        Self::InRange,
+        Self::Deterministic,
+        Self::ResetsCompletely,
+        Self::OwnStreamOnly,
+        Self::RotationIndifferent,
+        Self::TranslationIndifferent,
+        Self::PermutationStable,
+    ];
+}
+
 /// A check that a planner does not satisfy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {

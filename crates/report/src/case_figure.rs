@@ -48,7 +48,8 @@ pub(crate) fn figure(case: &Case) -> Figure {
 /// About this many rows, whatever the length of the run.
 const ROWS: usize = 24;
 
-fn table(trace: &Trace) -> DataTable {
+/// Course, speed and distance at some two dozen moments.
+pub(crate) fn table(trace: &Trace) -> DataTable {
     let mut table = DataTable::new(&[
         "time, s",
         "own course, deg",
@@ -214,7 +215,7 @@ fn draw_closest(sheet: &mut Sheet, area: Area, case: &Case) {
     let other = target.map(|track| pose_at(track, trace.sample_s, time_s));
     let apart_m = other.map_or(0.0, |pose| (pose.position_m - own.position_m).norm());
     let target_length_m = target.map_or(0.0, |track| track.ship.hull.length_m);
-    let border = safety_border(trace, own);
+    let border = safety_border(trace, &trace.own.ship.hull, own);
     let radius_m = (trace.safety_radius_m + trace.own.ship.hull.length_m / 2.0)
         .max(apart_m + target_length_m / 2.0)
         .max(10.0)

@@ -1,11 +1,12 @@
 //! Several planners on the same encounters, side by side.
 
 use crate::figure::Figure;
-use crate::input::Compared;
+use crate::input::{Compared, Extra};
 use crate::number::{NONE, count, fixed, per_cent_or_none, significant};
 use crate::page::{bounds, check_rate, css, fill, inline};
 use crate::write::Rendered;
 use crate::{ReportError, figure_rates};
+use geom::EncounterClass;
 use record::{Check, Status};
 use serde::Serialize;
 use std::path::Path;
@@ -48,7 +49,7 @@ pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError>
             .iter()
             .map(|column| Planner { name: &column.summary.planner, link: column.link })
             .collect(),
-        lines: lines(&wholes),
+        lines: lines(&wholes).into_iter().chain(costs(columns)).collect(),
         figures: figures.iter().map(inline).collect(),
     };
     let text = fill("comparison.html", include_str!("../templates/comparison.html"), &view)?;
@@ -180,6 +181,32 @@ fn lines(wholes: &[StratumSummary]) -> Vec<Line> {
         if wholes.iter().any(|s| of(s).n > 0) {
             lines.push(rate(&format!("failed: {}", check.title()), &of));
         }
+    }
+    lines
+}
+
+/// Of every planner what only its tallies and its second runs know.
+fn costs(columns: &[Compared]) -> Vec<Line> {
+    let line = |label: &str, of: &dyn Fn(&Compared) -> String| Line {
+        label: label.to_owned(),
+        cells: columns.iter().map(|c| Cell { value: of(c), small: String::new() }).collect(),
+    };
+    let mut lines = vec![line("kinds of findings: checks failed, by class", &|column| {
+        let whole = column.tallies.total();
+        let classes = EncounterClass::ALL.into_iter().map(Some).chain([None]);
+        let failed = |class, check| whole.check_in_class(class, check, Status::Fail) > 0;
+        let of = |class| Check::ALL.into_iter().filter(|&check| failed(class, check)).count();
+        count(classes.map(of).sum::<usize>() as u64)
+    })];
+    if columns.iter().any(|column| column.extra.is_some()) {
+        let of = |column: &Compared, value: fn(Extra) -> f64, decimals| {
+            fixed(column.extra.map(value), decimals)
+        };
+        lines.push(line("extra distance, m: mean", &|c| of(c, |extra| extra.distance_m, 0)));
+        lines.push(line("extra time, s: mean", &|c| of(c, |extra| extra.time_s, 1)));
+        lines.push(line("encounters behind these two", &|column| {
+            column.extra.map_or_else(|| NONE.to_owned(), |extra| count(extra.encounters))
+        }));
     }
     lines
 }

@@ -69,6 +69,8 @@ pub struct ReportInput<'a> {
     pub findings: &'a [Found],
     /// The worst encounters, worst first.
     pub cases: &'a [Case],
+    /// The scenes of a campaign of named scenes, in order; each is drawn under its own name.
+    pub scenes: &'a [Case],
 }
 
 /// One column of a comparison.
@@ -82,4 +84,17 @@ pub struct Compared<'a> {
     pub tallies: &'a Tallies,
     /// Its report, relative to the comparison: `zhuang/report.html`.
     pub link: &'a str,
+    /// What avoiding cost; absent where it was not measured.
+    pub extra: Option<Extra>,
+}
+
+/// What avoiding cost on the way: means over the first encounters of each stratum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extra {
+    /// Encounters that were looked at.
+    pub encounters: u64,
+    /// Way sailed and way still to go, less the planned way, metres.
+    pub distance_m: f64,
+    /// The same for time at planned speed, seconds.
+    pub time_s: f64,
 }

@@ -17,6 +17,7 @@ mod figure_cpa;
 mod figure_map;
 mod figure_polar;
 mod figure_rates;
+mod figure_scene;
 mod figure_times;
 mod findings;
 mod font;
@@ -34,6 +35,6 @@ mod write;
 
 pub use error::ReportError;
 pub use figure::{DataTable, Figure};
-pub use input::{Card, Case, Compared, Found, ReportInput};
+pub use input::{Card, Case, Compared, Extra, Found, ReportInput};
 pub use page::css;
 pub use write::{Rendered, case_picture, draw_case, render, write, write_comparison};

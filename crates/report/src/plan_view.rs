@@ -177,14 +177,14 @@ pub(crate) fn pose_at(track: &ShipTrack, sample_s: f64, time_s: f64) -> Pose {
     }
 }
 
-/// The border of the region that no target may enter, around own ship: with distances from hull
-/// to hull the hull grown by the radius, with distances between reference points a circle.
-pub(crate) fn safety_border(trace: &Trace, own: Pose) -> Vec<Vec2> {
+/// The border of the region around a ship that no other hull, or reference point, may enter: with
+/// distances from hull to hull the hull grown by the radius, between reference points a circle.
+pub(crate) fn safety_border(trace: &Trace, hull: &HullOutline, pose: Pose) -> Vec<Vec2> {
     const STEPS: usize = 90;
     let radius_m = trace.safety_radius_m;
     let corners = match trace.distance {
-        DistanceKind::Hull => trace.own.ship.hull.corners_m(own.position_m, own.psi_rad).to_vec(),
-        DistanceKind::Centre => vec![own.position_m],
+        DistanceKind::Hull => hull.corners_m(pose.position_m, pose.psi_rad).to_vec(),
+        DistanceKind::Centre => vec![pose.position_m],
     };
     // The farthest point of the grown hull in each direction; the hull is convex.
     (0..STEPS)

@@ -1,7 +1,7 @@
 //! Files appear whole or not at all.
 
 use crate::input::{Case, Compared, ReportInput};
-use crate::{ReportError, case_figure, compare, page};
+use crate::{ReportError, case_figure, compare, figure_scene, page};
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,8 @@ pub fn render(input: &ReportInput) -> Result<Vec<Rendered>, ReportError> {
     let figures = page::figures(input);
     let text = page::page(input, &figures)?;
     let mut files = vec![Rendered { path: "report.html".into(), text }];
-    files.extend(figures.into_iter().filter_map(|figure| {
+    let scenes = input.scenes.iter().map(figure_scene::figure);
+    files.extend(figures.into_iter().chain(scenes).filter_map(|figure| {
         let path = Path::new("figures").join(format!("{}.svg", figure.stem));
         figure.svg.map(|text| Rendered { path, text })
     }));

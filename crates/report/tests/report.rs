@@ -29,7 +29,7 @@ fn summary(tallies: &Tallies, strata: &[&str], planner: &str) -> Summary {
 
 fn page(summary: &Summary, tallies: &Tallies, cases: &[Case]) -> String {
     let card = card();
-    let input = ReportInput { card: &card, summary, tallies, findings: &[], cases };
+    let input = ReportInput { card: &card, summary, tallies, findings: &[], cases, scenes: &[] };
     let files = render(&input).expect("the templates fit");
     assert_eq!(files[0].path.to_str(), Some("report.html"));
     // The template engine writes a slash as an entity, which is the same to a browser.
@@ -140,6 +140,7 @@ fn same_input_gives_the_same_bytes_and_other_numbers_others() {
         tallies: &tallies,
         findings: &[],
         cases: &cases,
+        scenes: &[],
     };
     let once = render(&input).unwrap();
     assert_eq!(render(&input).unwrap(), once);
@@ -148,6 +149,37 @@ fn same_input_gives_the_same_bytes_and_other_numbers_others() {
     for (a, b) in once.iter().zip(render(&other).unwrap()) {
         assert_eq!(a.text == b.text, a.path.to_str().unwrap().contains("case"), "{:?}", a.path);
     }
+}
+
+/// A picture for each moment that counts, under the scene's own name.
+#[test]
+fn named_scenes_are_drawn_as_the_paper_draws_them() {
+    let card = card();
+    let (summary, tallies) = data(&["crossing_stbd"], 50, 20);
+    let picture = |others: usize| {
+        let scenes = [case(0, 25.0, others, 260, 1700.0)];
+        let input = ReportInput {
+            card: &card,
+            summary: &summary,
+            tallies: &tallies,
+            findings: &[],
+            cases: &[],
+            scenes: &scenes,
+        };
+        let mut files = render(&input).unwrap();
+        let scene = files.pop().unwrap();
+        assert_eq!(scene.path.to_str(), Some("figures/scene-crossing_stbd.svg"));
+        scene.text
+    };
+    let one = picture(0);
+    for text in ["(a) 0 s: original headings", "(b) ", "closest, ", "(c) 259 s: paths"] {
+        assert!(one.contains(text), "{text}");
+    }
+    assert!(!one.contains("(d)"));
+    let three = picture(2);
+    assert!(three.contains("(d) 259 s: paths") && three.contains("closest to 1, "));
+    // start and goal stand in the first panel and in the last
+    assert_eq!((one.matches("\nS\n").count(), one.matches("\nG\n").count()), (2, 2));
 }
 
 #[test]
@@ -162,6 +194,7 @@ fn writes_the_page_and_a_file_for_each_figure() {
         tallies: &tallies,
         findings: &[],
         cases: &cases,
+        scenes: &[],
     };
     let paths = write(folder.path(), &input).unwrap();
     let mut names: Vec<String> = paths
@@ -216,7 +249,8 @@ fn planners_stand_side_by_side_only_over_the_same_encounters() {
     let (a, tallies_a) = data(&classes(), 200, 50);
     let (_, tallies_b) = data(&classes(), 200, 10);
     let b = summary(&tallies_b, &classes(), "hold-course");
-    let column = |summary, tallies, link| Compared { card: &card, summary, tallies, link };
+    let column =
+        |summary, tallies, link| Compared { card: &card, summary, tallies, link, extra: None };
     let columns = [
         column(&a, &tallies_a, "zhuang/report.html"),
         column(&b, &tallies_b, "hold-course/report.html"),

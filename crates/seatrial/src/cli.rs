@@ -41,6 +41,16 @@ pub(crate) enum Command {
     },
     /// List the planners, a line each
     Planners,
+    /// Run the conformance kit against a planner
+    ///
+    /// Repeatable, reset completely, in range, its own random stream only, and indifferent to where
+    /// the scene lies. A planner of the registry that ends its process ends this command too.
+    #[command(after_help = EXIT_CODES)]
+    Conformance {
+        /// A planner of the registry, `exec:COMMAND` or `lib:FILE`
+        #[arg(long, value_name = "NAME")]
+        planner: String,
+    },
     /// Measure encounters per second, the floor, and the share of each stage
     Speed {
         /// Encounters to run for each figure

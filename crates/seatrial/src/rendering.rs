@@ -3,13 +3,14 @@
 
 use crate::obstacles;
 use campaign::cases::Cases;
+use campaign::plan::Source;
 use campaign::worker::{self, Run};
 use campaign::{Error, Plan};
 use planner_api::Registry;
 use record::{EncounterId, Outcome, Status};
 use report::{Card, Case, Found, ReportInput};
 use std::collections::BTreeMap;
-use summary::{Event, Finding, Findings, Summary, SummaryHead, Tallies};
+use summary::{Event, Finding, Findings, StratumSummary, Summary, SummaryHead, Tallies};
 
 /// Encounters that a report shows with their tracks, and plays.
 const CASES_SHOWN: usize = 20;
@@ -22,6 +23,7 @@ pub(crate) struct Rendering {
     pub(crate) tallies: Tallies,
     pub(crate) findings: Vec<Found>,
     pub(crate) cases: Vec<Case>,
+    pub(crate) scenes: Vec<Case>,
 }
 
 impl Rendering {
@@ -53,7 +55,9 @@ impl Rendering {
         };
         let summary = Summary::new(head, &tallies, plan.strata.iter().map(String::as_str))
             .with_disagreements(disagreements.to_vec());
-        Ok(Self { card: card(plan)?, summary, tallies, findings, cases })
+        let scenes = scenes(plan, &summary);
+        let scenes = scenes.iter().map(|id| shown.case(id)).collect::<Result<_, _>>()?;
+        Ok(Self { card: card(plan)?, summary, tallies, findings, cases, scenes })
     }
 
     /// As the report wants it.
@@ -64,6 +68,7 @@ impl Rendering {
             tallies: &self.tallies,
             findings: &self.findings,
             cases: &self.cases,
+            scenes: &self.scenes,
         }
     }
 }
@@ -71,6 +76,19 @@ impl Rendering {
 /// Whether a run with this outcome takes its process with it, and so is not run again here.
 pub(crate) const fn takes_process(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::PlannerHung | Outcome::PlannerCrashed)
+}
+
+/// More named scenes than this are a data set, and the report's worst cases have to do.
+const SCENES_MAX: usize = 24;
+
+/// The named scenes of a campaign; each of its strata is one.
+fn scenes(plan: &Plan, summary: &Summary) -> Vec<EncounterId> {
+    let named = matches!(plan.source, Source::Fixed(_)) && plan.strata.len() <= SCENES_MAX;
+    let can_be_shown = |stratum: &&StratumSummary| {
+        !stratum.outcomes.iter().any(|(o, &k)| k > 0 && takes_process(*o))
+    };
+    let strata = summary.strata.iter().filter(|_| named).filter(can_be_shown);
+    strata.map(|stratum| EncounterId::new(stratum.name.as_str(), 0)).collect()
 }
 
 /// A run as the report wants it.

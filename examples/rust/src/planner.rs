@@ -8,8 +8,7 @@
 //! Only + - * / sqrt and comparisons, and the same ones in the same order in every language: so all
 //! four give the same bits.
 
-use geom::Vec2;
-use planner_api::{Alert, Command, Mission, Order, Planner, Situation, TargetTrack};
+use planner_api::{Alert, Command, Mission, Order, Planner, Situation, TargetTrack, Vec2};
 
 /// Cosine and sine of the 15 degrees between two courses that it tries.
 const COS_STEP: f64 = 0.965_925_826_289_068_3;

@@ -1,6 +1,5 @@
 //! The findings F1 to F22 of the seed planner's specification that show at the planner itself.
-//! F15 is in `boundary`; F13 needs a target that alters and is shown through the simulator; F20
-//! is a table in `docs/seed-planner.md`.
+//! F15 is in `boundary`; F20 is a table in `docs/seed-planner.md`.
 
 use crate::figures::{fig_14, fig_15, fig_16, fig_16_mirrored};
 use crate::random::encounter;
@@ -158,6 +157,41 @@ fn f12_the_reference_is_the_largest_turn_and_not_the_most_urgent() {
     assert!((both - first_pass(&[later])).abs() < 1e-9, "{both}");
 }
 
+/// A ship from port gives way, as Rule 15 asks of her, 60 s before the closest point: the planner
+/// has her on a straight line, has slowed down or turned to port for her, and meets her there.
+#[test]
+fn f13_a_target_that_gives_way_is_not_foreseen() {
+    let broken = |gives_way: bool| {
+        let mut stream = PlannerStream::new(13);
+        let mut planner = planner("zhuang", "");
+        let (mut seen, mut broken) = (0, 0);
+        while seen < 200 {
+            let (scene, class) = encounter(&mut stream);
+            if class != EncounterClass::CrossingPort {
+                continue;
+            }
+            seen += 1;
+            let tcpa_s = time_to_cpa_s(&scene);
+            let alters = gives_way.then_some((tcpa_s - 60.0, 45.0));
+            let scene = Scene { target_length_m: None, alters, ..scene };
+            let range_m = scene.run(planner.as_mut()).range_m_min();
+            // well inside R: the step of a second and a turn of 6 degrees a second cost metres
+            broken += u32::from(range_m < 130.0);
+        }
+        broken
+    };
+    let (holds, gives_way) = (broken(false), broken(true));
+    println!("R broken in {holds} and {gives_way} of 200");
+    assert!(gives_way > 20 && gives_way > 4 * holds, "{holds} {gives_way}");
+}
+
+/// With both on their first courses.
+fn time_to_cpa_s(scene: &Scene) -> f64 {
+    let los = scene.targets[0].position_m() - scene.own.position_m();
+    let relative = scene.own.velocity_mps() - scene.targets[0].velocity_mps();
+    los.dot(&relative) / relative.norm_squared()
+}
+
 #[test]
 fn f14_two_readings_of_the_resume_are_unsafe() {
     let range_m = |resume: &str| {
@@ -248,6 +282,31 @@ fn f21_the_corrected_stand_on_ship_crosses_ahead() {
     assert!(run.first_turn(2.0) > 0.0 && run.range_m_min() > 150.0);
     // own ship as seen from the target at CPA: forward of its beam
     assert!(run.cpa[0].contact_rad.abs() < FRAC_PI_2, "{:?}", run.cpa[0]);
+}
+
+/// A search over crossings from port: among those in which holding on would have led astern of the
+/// other ship, the corrected planner's action under 17(b) leads across her bow in some.
+#[test]
+fn f21_acting_leads_across_the_bow_where_holding_on_would_not() {
+    let mut stream = PlannerStream::new(21);
+    let (mut corrected, mut hold) = (planner("zhuang-corrected", ""), planner("hold-course", ""));
+    let ahead = |run: &crate::scene::Run| run.cpa[0].contact_rad.abs() < FRAC_PI_2;
+    let (mut astern, mut flipped, mut seen) = (0, 0, 0);
+    while seen < 80 {
+        let (scene, class) = encounter(&mut stream);
+        if class != EncounterClass::CrossingPort {
+            continue;
+        }
+        seen += 1;
+        if ahead(&scene.run(hold.as_mut())) {
+            continue;
+        }
+        astern += 1;
+        let run = scene.run(corrected.as_mut());
+        flipped += u32::from(run.first_turn(10.0) > 0.0 && ahead(&run));
+    }
+    println!("across the bow in {flipped} of {astern} that would have passed astern");
+    assert!(flipped > 5, "{flipped} of {astern}");
 }
 
 #[test]

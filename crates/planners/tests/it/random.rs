@@ -39,6 +39,7 @@ pub(crate) fn encounter(stream: &mut PlannerStream) -> (Scene, EncounterClass) {
             cruise_mps: own_mps,
             turn_rate_deg: 6.0,
             target_length_m: Some(length_m),
+            alters: None,
         };
         return (scene, class);
     }

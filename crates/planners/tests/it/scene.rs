@@ -36,6 +36,8 @@ pub(crate) struct Scene {
     pub(crate) turn_rate_deg: f64,
     /// Length of every target where distances are from hull to hull.
     pub(crate) target_length_m: Option<f64>,
+    /// When every target alters (seconds), and by how much to starboard (degrees).
+    pub(crate) alters: Option<(f64, f64)>,
 }
 
 impl Scene {
@@ -51,6 +53,22 @@ impl Scene {
             cruise_mps: 8.0,
             turn_rate_deg: 6.0,
             target_length_m: None,
+            alters: None,
+        }
+    }
+
+    /// A target as she is at a moment.
+    fn target(&self, target: Vessel, t_s: f64) -> Vessel {
+        let sailed = |from: Vessel, for_s: f64| {
+            let to_m = from.position_m() + from.velocity_mps() * for_s;
+            Vessel(to_m.y, to_m.x, from.2, from.3)
+        };
+        match self.alters {
+            Some((at_s, by_deg)) if t_s > at_s => {
+                let Vessel(x, y, speed, course_deg) = sailed(target, at_s);
+                sailed(Vessel(x, y, speed, course_deg - by_deg), t_s - at_s)
+            }
+            _ => sailed(target, t_s),
         }
     }
 
@@ -78,7 +96,8 @@ impl Scene {
     pub(crate) fn tracks(&self, t_s: f64, own_m: Vec2) -> Vec<TargetTrack> {
         let track = |(id, v): (usize, &Vessel)| TargetTrack {
             length_m: self.target_length_m,
-            ..track(id as u32, *v, t_s)
+            age_s: t_s,
+            ..track(id as u32, self.target(*v, t_s), 0.0)
         };
         self.targets
             .iter()
@@ -121,7 +140,8 @@ impl Scene {
                 position_m += angle::unit(psi) * (speed * 0.1);
                 let now_s = t_s + 0.1 * f64::from(step + 1);
                 for (target, cpa) in self.targets.iter().zip(&mut cpa) {
-                    let los = target.position_m() + target.velocity_mps() * now_s - position_m;
+                    let target = self.target(*target, now_s);
+                    let los = target.position_m() - position_m;
                     if los.norm() < cpa.range_m {
                         let bearing_rad = wrap(angle::direction(los) - psi);
                         let contact_rad = wrap(angle::direction(-los) - target.course_rad());

@@ -4,12 +4,16 @@
 //! ```text
 //! cargo run --release -p seatrial --example measured -- failures DIR...
 //! cargo run --release -p seatrial --example measured -- random DIR...
+//! cargo run --release -p seatrial --example measured -- compare DIR
+//! cargo run --release -p seatrial --example measured -- scenes DIR...
 //! ```
 //!
 //! `failures` lists what checks and events found in a result, by class of the encounter, with exact
 //! bounds and the worst encounter. `random` is the table of the paper's own world: distances,
-//! first alterations, the inner loop's cap and the goal.
+//! first alterations, the inner loop's cap and the goal. `compare` sets the planners of a
+//! comparison side by side; `scenes` the smallest distances of named scenes.
 
+mod compare;
 mod failures;
 mod random;
 
@@ -21,7 +25,9 @@ fn main() -> anyhow::Result<()> {
     match args.split_first() {
         Some((what, dirs)) if what == "failures" && !dirs.is_empty() => failures::print(dirs),
         Some((what, dirs)) if what == "random" && !dirs.is_empty() => random::print(dirs),
-        _ => anyhow::bail!("usage: measured failures|random DIR..."),
+        Some((what, dirs)) if what == "compare" && !dirs.is_empty() => compare::print(dirs),
+        Some((what, dirs)) if what == "scenes" && !dirs.is_empty() => compare::print_scenes(dirs),
+        _ => anyhow::bail!("usage: measured failures|random|compare|scenes DIR..."),
     }
 }
 

@@ -20,13 +20,24 @@ const SAMPLE: u64 = 20;
 
 /// One planner's line.
 #[derive(Debug, Serialize)]
-struct Cost {
-    planner: String,
+pub(super) struct Cost {
+    pub(super) planner: String,
     encounters: u64,
     calls: u64,
     planning_us_per_call: f64,
     extra_distance_m_mean: f64,
     extra_time_s_mean: f64,
+}
+
+impl Cost {
+    /// What of it does not depend on the clock.
+    pub(super) fn extra(&self) -> report::Extra {
+        report::Extra {
+            encounters: self.encounters,
+            distance_m: self.extra_distance_m_mean,
+            time_s: self.extra_time_s_mean,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -43,7 +54,7 @@ pub(super) fn measure(
     registry: Registry,
     out: &Path,
     quiet: bool,
-) -> Result<(), Error> {
+) -> Result<Vec<Cost>, Error> {
     let registry = Arc::new(registry);
     let costs: Vec<Cost> =
         plans.iter().map(|plan| cost(plan, &registry)).collect::<Result<_, Error>>()?;
@@ -64,7 +75,7 @@ pub(super) fn measure(
             );
         }
     }
-    Ok(())
+    Ok(costs)
 }
 
 fn cost(plan: &Plan, registry: &Arc<Registry>) -> Result<Cost, Error> {

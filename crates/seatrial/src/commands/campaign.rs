@@ -30,10 +30,10 @@ pub(super) fn run(args: &CampaignArgs, registry: Registry) -> Result<Ended, Erro
         }
     }
     if several && args.shard.is_none() {
-        finish::comparison(&out, &results, args.quiet)?;
         let sound = plans.iter().zip(&results).filter(|(_, result)| !result.takes_its_process());
         let sound: Vec<&Plan> = sound.map(|(plan, _)| plan).collect();
-        super::avoiding_cost::measure(&sound, registry, &out, args.quiet)?;
+        let costs = super::avoiding_cost::measure(&sound, registry, &out, args.quiet)?;
+        finish::comparison(&out, &results, &costs, args.quiet)?;
     }
     Ok(Ended::Done)
 }

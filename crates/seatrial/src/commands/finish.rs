@@ -1,5 +1,6 @@
 //! From parts to files: the table, the summary, the report, the manifest.
 
+use super::avoiding_cost::Cost;
 use crate::rendering::{Rendering, card};
 use crate::say::{say, say_text};
 use crate::timing::Stopwatch;
@@ -105,7 +106,12 @@ pub(super) fn read_back(plan: &Plan, folder: &Folder) -> Result<PlannerResult, E
 }
 
 /// Writes the side-by-side of several planners.
-pub(super) fn comparison(out: &Path, results: &[PlannerResult], quiet: bool) -> Result<(), Error> {
+pub(super) fn comparison(
+    out: &Path,
+    results: &[PlannerResult],
+    costs: &[Cost],
+    quiet: bool,
+) -> Result<(), Error> {
     let columns: Vec<Compared<'_>> = results
         .iter()
         .map(|r| Compared {
@@ -113,6 +119,7 @@ pub(super) fn comparison(out: &Path, results: &[PlannerResult], quiet: bool) -> 
             summary: &r.summary,
             tallies: &r.tallies,
             link: &r.link,
+            extra: costs.iter().find(|cost| cost.planner == r.card.planner).map(Cost::extra),
         })
         .collect();
     report::write_comparison(out, &columns).map_err(|e| Error::Fault(format!("failed to {e}")))?;

@@ -4,6 +4,7 @@ mod avoiding_cost;
 mod baseline;
 mod campaign;
 mod compare;
+mod conformance;
 mod corpus;
 mod engine;
 mod evidence;
@@ -37,6 +38,7 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Campaign(args) => campaign::run(&args, registry),
         Command::Replay { dir, encounter_id } => replay::run(&dir, &encounter_id, registry),
         Command::Planners => planners::run(&registry),
+        Command::Conformance { planner } => conformance::run(&planner, registry),
         Command::Speed { encounters } => speed::run(encounters, &registry),
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
