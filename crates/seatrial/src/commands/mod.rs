@@ -6,12 +6,14 @@ mod compare;
 mod engine;
 mod evidence;
 mod finish;
+mod fit_ais;
 mod gate;
 mod gate_git;
 mod gate_replay;
 mod gate_self_test;
 mod intervals;
 mod judge;
+mod manoeuvres;
 mod planners;
 mod replay;
 mod shards;
@@ -34,6 +36,8 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Replay { dir, encounter_id } => replay::run(&dir, &encounter_id, registry),
         Command::Planners => planners::run(&registry),
         Command::Speed { encounters } => speed::run(encounters, &registry),
+        Command::Manoeuvres { out } => manoeuvres::run(out.as_deref()),
+        Command::FitAis { file, out, seed } => fit_ais::run(&file, &out, seed),
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),
