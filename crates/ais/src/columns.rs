@@ -122,8 +122,8 @@ mod tests {
         assert_eq!((columns.time, columns.kind, columns.mmsi), (0, Some(1), 2));
         assert_eq!((columns.length, columns.order), (Some(16), Order::DayFirst));
         for american in [
-            "MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading,VesselName,IMO,CallSign,VesselType,Status,Length",
-            "mmsi,base_date_time,longitude,latitude,sog,cog,heading,vessel_name,imo,call_sign,length",
+            "MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading,VesselName,IMO,Status,Length",
+            "mmsi,base_date_time,longitude,latitude,sog,cog,heading,vessel_name,length",
         ] {
             let columns = Columns::of(american).unwrap();
             assert_eq!((columns.time, columns.mmsi), (1, 0), "{american}");

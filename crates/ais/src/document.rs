@@ -120,12 +120,9 @@ pub fn report(name: &str, rows: &Rows, tracks: &[Track], found: &Found, model: &
     for reasons in [&rows.rejected, &found.left_out] {
         reasons_into(reasons, &mut line);
     }
-    line("\n## Laws\n".to_owned());
-    line(
-        "| of | n | law | parameters with 95 % intervals | Kolmogorov distance | p | in the model |\n\
-         |---|---|---|---|---|---|---|"
-            .to_owned(),
-    );
+    line("\n## Laws; Kolmogorov distance from the sample\n".to_owned());
+    line("| of | n | law | parameters, 95 % intervals | distance | p | in the model |".to_owned());
+    line("|---|---|---|---|---|---|---|".to_owned());
     for law in [&model.speed, &model.miss, &model.length] {
         line(law_row(law));
     }
@@ -257,9 +254,9 @@ fn inline(law: &Distribution) -> String {
     }
 }
 
-/// The encounters as situations, one for each role: own ship takes the place of the first ship and
-/// then of the second, the other goes straight on from where she was [`BEFORE_S`] before the closest
-/// point. The head of the campaign is the caller's.
+/// The encounters as situations, one for each role: own ship takes the place of the first ship
+/// and then of the second, the other goes straight on from where she was [`BEFORE_S`] before the
+/// closest point. The head of the campaign is the caller's.
 pub fn situations(tracks: &[Track], meetings: &[Meeting]) -> String {
     let mut text = String::new();
     for (k, meeting) in meetings.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! From AIS reports to encounters and the distributions that describe them.
 //!
-//! `FILE.csv -> rows ([read]) -> tracks ([tracks]) -> encounters ([meetings]) -> laws ([fit])`. What
-//! is left out on the way is counted with its reason. Nothing here is part of a campaign: what comes
-//! out is a campaign file.
+//! `FILE.csv -> rows -> tracks -> encounters -> laws`, a module for each step. What is left out on
+//! the way is counted with its reason. Nothing here is part of a campaign: what comes out is a
+//! campaign file.
 #![forbid(unsafe_code)]
 
 pub mod columns;

@@ -394,8 +394,8 @@ mod tests {
         assert!(!sr108.is_a_ship());
     }
 
-    /// The tanker of the same source (its `vessel_2`, 304.8 m) has the same slip: sway lives for 117
-    /// hours. CyberShip II at the scale of the model, 1.255 m, has the constants of a ship.
+    /// The tanker of the same source (its `vessel_2`, 304.8 m) has the same slip: sway lives for
+    /// 117 hours. CyberShip II at the scale of the model, 1.255 m, has the constants of a ship.
     #[test]
     fn the_other_sets_of_the_source() {
         let hours = |mass: f64, damping: f64| mass / damping / 3600.0;
