@@ -2,8 +2,8 @@
 //!
 //! Yaw rate `r` and rudder angle `d` alone: no sway, so that course and heading are one, and no
 //! loss of speed in a turn. K, T and n3 depend on the speed (linear between the speeds of the
-//! source, constant above). The engine is first order as well, within an acceleration. This is the model
-//! of a ship of which only steering trials are known (Nomoto 1957; Norrbin 1963; Fossen 2011,
+//! source, constant above). The engine is first order as well, within an acceleration. This is the
+//! model of a ship of which only steering trials are known (Nomoto 1957; Norrbin 1963; Fossen 2011,
 //! Handbook of Marine Craft Hydrodynamics and Motion Control, section 7.2).
 
 use super::slew::{Reach, reach};
