@@ -18,8 +18,8 @@ pub use gunnerus::GUNNERUS;
 pub use helm::Helm;
 pub use kinematic::Kinematic;
 pub use nomoto::{Gains, Nomoto};
-pub use slew::Actuators;
-pub use three_dof::{Autopilot, Damping, MassMatrix, Propulsion, Rates, Steering, ThreeDof};
+pub use slew::{Actuators, Rates, Steering};
+pub use three_dof::{Autopilot, Damping, MassMatrix, Propulsion, ThreeDof};
 pub use viknes::VIKNES;
 
 use geom::Vec2;

@@ -9,6 +9,27 @@ pub struct Actuators {
     pub steering: f64,
 }
 
+/// How a steering angle becomes a side force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Steering {
+    /// In proportion to the angle; the largest force at this angle, radians.
+    Proportional {
+        /// Angle of the largest force.
+        angle_rad_max: f64,
+    },
+    /// The thrust itself turns.
+    Azimuth,
+}
+
+/// Largest rates of change, N/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates {
+    /// Of the thrust.
+    pub thrust_nps: f64,
+    /// Of the side force.
+    pub side_nps: f64,
+}
+
 /// Where an actuator stood, and how fast it moves.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {

@@ -9,7 +9,7 @@
 //! Integrated by the classical fourth-order Runge-Kutta rule with the autopilot inside the
 //! derivative: a zero-order hold would add a delay of half a step to every manoeuvre.
 
-use super::slew::{Reach, reach};
+use super::slew::{Rates, Reach, Steering, reach};
 use super::{Actuators, Helm, Limits, State};
 use geom::{Vec2, math};
 
@@ -75,27 +75,6 @@ pub struct Propulsion {
     pub steering: Steering,
     /// How fast the forces change; absent where the source gives none: at once.
     pub rates: Option<Rates>,
-}
-
-/// How a steering angle becomes a side force.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Steering {
-    /// In proportion to the angle; the largest force at this angle, radians.
-    Proportional {
-        /// Angle of the largest force.
-        angle_rad_max: f64,
-    },
-    /// The thrust itself turns.
-    Azimuth,
-}
-
-/// Largest rates of change, N/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rates {
-    /// Of the thrust.
-    pub thrust_nps: f64,
-    /// Of the side force.
-    pub side_nps: f64,
 }
 
 /// Gains of the course and speed autopilot, 1/s.
