@@ -313,6 +313,7 @@ mod tests {
             safety_radius_m: 100.0,
             between_centres: false,
             beat_s: 1.0,
+            hazards: Vec::new(),
             stream_seed: 0,
         });
         let tracks = [track(0, 300.0, 0.0), track(1, -900.0, 0.0)];

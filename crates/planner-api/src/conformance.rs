@@ -293,6 +293,7 @@ impl Scene {
             safety_radius_m: 150.0,
             between_centres: number.is_multiple_of(2),
             beat_s: 1.0,
+            hazards: Vec::new(),
             stream_seed: 0xc0de + number,
         };
         Self { mission, own, targets }

@@ -19,6 +19,10 @@ pub struct Mission {
     pub between_centres: bool,
     /// `plan` is called once a beat, seconds.
     pub beat_s: f64,
+    /// Land, piers and shoals that the chart shows: simple polygons, corners in metres north and
+    /// east, the last joined to the first; none in open water.
+    #[serde(default)]
+    pub hazards: Vec<Vec<Vec2>>,
     /// Seed of the planner's own random stream; written as 16 hexadecimal digits in messages.
     #[serde(with = "crate::stream::hex_seed")]
     pub stream_seed: u64,

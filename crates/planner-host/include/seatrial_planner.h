@@ -56,7 +56,26 @@ typedef struct SeatrialWaypoint {
   double speed_mps;
 } SeatrialWaypoint;
 
+// A point in metres.
+typedef struct SeatrialPoint {
+  // Metres north.
+  double north_m;
+  // Metres east.
+  double east_m;
+} SeatrialPoint;
+
+// Land, a pier or a shoal: a simple polygon, the last corner joined to the first.
+typedef struct SeatrialHazard {
+  // Corners.
+  const struct SeatrialPoint *corners;
+  // How many; at least three.
+  size_t corners_len;
+} SeatrialHazard;
+
 // The task of one encounter. Pointers are valid during the call only.
+//
+// Later releases add fields at the end and nowhere else, so that a library that was built against
+// an older header reads what it knows. Seatrial of before 0.2 ends with `between_centres`.
 typedef struct SeatrialMission {
   // Own ship.
   struct SeatrialOwnShip own;
@@ -74,6 +93,10 @@ typedef struct SeatrialMission {
   uint64_t stream_seed;
   // 1: distances are between reference points; 0: from hull to hull.
   uint32_t between_centres;
+  // Land, piers and shoals.
+  const struct SeatrialHazard *hazards;
+  // How many.
+  size_t hazards_len;
 } SeatrialMission;
 
 // Own ship at a beat: metres, m/s north and east, radians clockwise from north.

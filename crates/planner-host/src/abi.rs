@@ -45,7 +45,30 @@ pub struct SeatrialWaypoint {
     pub speed_mps: f64,
 }
 
+/// A point in metres.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SeatrialPoint {
+    /// Metres north.
+    pub north_m: f64,
+    /// Metres east.
+    pub east_m: f64,
+}
+
+/// Land, a pier or a shoal: a simple polygon, the last corner joined to the first.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct SeatrialHazard {
+    /// Corners.
+    pub corners: *const SeatrialPoint,
+    /// How many; at least three.
+    pub corners_len: usize,
+}
+
 /// The task of one encounter. Pointers are valid during the call only.
+///
+/// Later releases add fields at the end and nowhere else, so that a library that was built against
+/// an older header reads what it knows. Seatrial of before 0.2 ends with `between_centres`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct SeatrialMission {
@@ -65,6 +88,10 @@ pub struct SeatrialMission {
     pub stream_seed: u64,
     /// 1: distances are between reference points; 0: from hull to hull.
     pub between_centres: u32,
+    /// Land, piers and shoals.
+    pub hazards: *const SeatrialHazard,
+    /// How many.
+    pub hazards_len: usize,
 }
 
 /// Own ship at a beat: metres, m/s north and east, radians clockwise from north.

@@ -20,6 +20,7 @@ impl From<&api::Mission> for Mission {
             safety_radius_m,
             between_centres,
             beat_s,
+            hazards,
             stream_seed,
         } = mission;
         let api::OwnShip {
@@ -48,6 +49,7 @@ impl From<&api::Mission> for Mission {
             safety_radius_m: *safety_radius_m,
             between_centres: *between_centres,
             beat_s: *beat_s,
+            hazards: hazards.iter().map(|h| h.iter().map(|&c| pair(c)).collect()).collect(),
             stream_seed: format!("{stream_seed:016x}"),
         }
     }
@@ -148,6 +150,7 @@ mod tests {
             safety_radius_m: 150.0,
             between_centres: true,
             beat_s: 0.5,
+            hazards: vec![vec![Vec2::new(0.0, third), Vec2::new(8.0, 0.0), Vec2::new(8.0, -9.0)]],
             stream_seed: 0xfedc_ba98_7654_3210,
         };
         let wire = Mission::from(&mission);

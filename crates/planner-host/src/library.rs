@@ -123,6 +123,7 @@ impl Planner for LibraryPlanner {
             safety_radius_m,
             between_centres,
             beat_s,
+            hazards,
             stream_seed,
         } = mission;
         let route: Vec<abi::SeatrialWaypoint> = route
@@ -131,6 +132,20 @@ impl Planner for LibraryPlanner {
                 north_m: waypoint.position_m.x,
                 east_m: waypoint.position_m.y,
                 speed_mps: waypoint.speed_mps.unwrap_or(f64::NAN),
+            })
+            .collect();
+        let corners: Vec<Vec<abi::SeatrialPoint>> = hazards
+            .iter()
+            .map(|hazard| {
+                let point = |c: &Vec2| abi::SeatrialPoint { north_m: c.x, east_m: c.y };
+                hazard.iter().map(point).collect()
+            })
+            .collect();
+        let hazards: Vec<abi::SeatrialHazard> = corners
+            .iter()
+            .map(|hazard| abi::SeatrialHazard {
+                corners: hazard.as_ptr(),
+                corners_len: hazard.len(),
             })
             .collect();
         let mission = SeatrialMission {
@@ -148,9 +163,11 @@ impl Planner for LibraryPlanner {
             beat_s: *beat_s,
             stream_seed: *stream_seed,
             between_centres: u32::from(*between_centres),
+            hazards: hazards.as_ptr(),
+            hazards_len: hazards.len(),
         };
         // SAFETY: the instance came from `create` of the same library and is not destroyed; the
-        // mission and its route outlive the call.
+        // mission, its route and its hazards outlive the call.
         let result = unsafe { (self.reset)(self.instance, &raw const mission) };
         self.check("reset", result);
     }

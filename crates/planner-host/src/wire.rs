@@ -214,6 +214,9 @@ pub struct Mission {
     pub between_centres: bool,
     /// Time between two plans, seconds.
     pub beat_s: f64,
+    /// Land, piers and shoals: simple polygons, corners in metres north and east, the last joined
+    /// to the first; none in open water.
+    pub hazards: Vec<Vec<[f64; 2]>>,
     /// Seed of the planner's own random numbers, 16 hexadecimal digits.
     pub stream_seed: String,
 }

@@ -115,6 +115,7 @@ fn mission(stream: &mut PlannerStream) -> Mission {
         safety_radius_m: between(stream, 50.0, 300.0),
         between_centres: stream.uniform() < 0.3,
         beat_s: 1.0,
+        hazards: vec![vec![Vec2::new(9e3, 9e3), Vec2::new(9.5e3, 9e3), Vec2::new(9e3, 9.5e3)]],
         stream_seed: stream.next_u64(),
     }
 }

@@ -72,6 +72,7 @@ fn mission() -> Mission {
         safety_radius_m: 150.0,
         between_centres: false,
         beat_s: 1.0,
+        hazards: Vec::new(),
         stream_seed: 1,
     }
 }

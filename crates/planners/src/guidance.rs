@@ -114,6 +114,7 @@ mod tests {
             safety_radius_m: 150.0,
             between_centres: true,
             beat_s: 1.0,
+            hazards: Vec::new(),
             stream_seed: 1,
         });
         guidance

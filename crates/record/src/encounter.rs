@@ -78,9 +78,9 @@ pub enum RunUntil {
 pub struct Motion {
     /// Position of the reference point, metres north and east.
     pub position_m: Vec2,
-    /// Heading, radians clockwise from north.
+    /// Course over ground, radians clockwise from north; the heading too, where nothing drifts.
     pub psi_rad: f64,
-    /// Speed ahead through the water, m/s.
+    /// Speed over ground, m/s.
     pub speed_mps: f64,
 }
 

@@ -57,6 +57,24 @@ pub(crate) enum Command {
         #[arg(long, value_name = "N", default_value_t = 200)]
         encounters: u64,
     },
+    /// Turning circle, zigzags and crash stop of every vessel
+    Manoeuvres {
+        /// Folder for the table and the picture; without it the table is printed and no more
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+    /// Fit an encounter model to a file of AIS reports
+    #[command(after_help = EXIT_CODES)]
+    FitAis {
+        /// A CSV file; columns are found by name
+        file: PathBuf,
+        /// Folder for the report, the model and the situations
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+        /// Seed of the bootstrap
+        #[arg(long, value_name = "N")]
+        seed: u64,
+    },
     /// Check a file of planner vectors, and print the largest error of each column
     #[command(after_help = EXIT_CODES)]
     Vectors {

@@ -50,6 +50,7 @@ fn mission(encounter: &Encounter) -> Mission {
         safety_radius_m: encounter.safety_radius_m,
         between_centres: encounter.distance == DistanceKind::Centre,
         beat_s: encounter.run.beat_s,
+        hazards: Vec::new(),
         stream_seed: 0,
     }
 }

@@ -3,8 +3,8 @@
 use crate::approach::Approach;
 use crate::hazard::Hazards;
 use crate::interval::Hulls;
-use crate::ship::Ship;
 use crate::vessel::{known_models, limits};
+use crate::weather::Environment;
 use geom::polygon::{self, PolygonFault};
 use geom::{HullOutline, Vec2};
 use record::{
@@ -268,13 +268,9 @@ fn check_route(ship: &str, route: &[Waypoint]) -> Result<(), SetupError> {
 }
 
 fn check_apart(encounter: &Encounter) -> Result<(), SetupError> {
-    let current_mps = encounter.weather.current_mps;
-    let ship = |hull, vessel, start| {
-        Ship::new(hull, vessel, start, current_mps).expect("the models were checked before")
-    };
-    let own = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
-    for (index, target) in encounter.targets.iter().enumerate() {
-        let target = ship(target.hull, &target.vessel, &target.start);
+    let ships = Environment::new(encounter).ships(encounter);
+    let (own, targets) = ships.expect("the models were checked before");
+    for (index, target) in targets.iter().enumerate() {
         let hulls = Hulls { own: &own.hull, target: &target.hull };
         if Approach::new(1.0, hulls, &own.pose, &target.pose).overlaps() {
             return Err(SetupError::Overlap(index));

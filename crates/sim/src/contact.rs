@@ -78,10 +78,10 @@ pub struct Aftermath {
 }
 
 /// Part of the closing speed that comes back. Ships crumple: collision mechanics takes them as
-/// entirely inelastic (Pedersen and Zhang 1998, Marine Structures 11); a little keeps light
-/// touches apart.
+/// entirely inelastic (Pedersen and Zhang 1998, Marine Structures 11; cited from memory, the paper
+/// was not at hand); a little keeps light touches apart.
 const RESTITUTION: f64 = 0.1;
-/// Steel on steel, wet (the same paper takes 0.3 to 0.6).
+/// Steel on steel, wet (the same paper takes 0.3 to 0.6, likewise from memory).
 const FRICTION: f64 = 0.3;
 /// Step of the burst: a hull at 10 m/s enters the other by 2 cm before she is pushed out.
 const STEP_S: f64 = 0.002;

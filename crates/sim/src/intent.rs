@@ -116,6 +116,10 @@ struct Leg {
 
 /// Look-ahead distance in ship lengths; two to five are usual for line-of-sight guidance.
 const LOOKAHEAD_LENGTHS: f64 = 4.0;
+/// Look-ahead time where current, gusts and waves keep pushing a ship off her leg, seconds. Four
+/// lengths of a boat are five seconds: she would chase every push, and the track that nobody
+/// alters on would show alterations.
+const LOOKAHEAD_IN_WEATHER_S: f64 = 120.0;
 
 impl Route {
     /// The route of `ship` from where she is through `waypoints`, at `speed_mps` until a waypoint
@@ -138,6 +142,14 @@ impl Route {
             from_m = waypoint.position_m;
         }
         Self { legs, next: 0, lookahead_m: LOOKAHEAD_LENGTHS * ship.outline.length_m }
+    }
+
+    /// The same route, followed with the patience that weather asks for.
+    #[must_use]
+    pub fn in_weather(mut self) -> Self {
+        let fastest_mps = self.legs.iter().map(|leg| leg.speed_mps).fold(0.0, f64::max);
+        self.lookahead_m = self.lookahead_m.max(LOOKAHEAD_IN_WEATHER_S * fastest_mps);
+        self
     }
 
     /// Whether it is one course at one speed, the ship's own.

@@ -20,24 +20,24 @@ use record::{Encounter, Nominal, ShipTrack};
 /// or at the longest duration; that does not depend on any planner.
 pub fn nominal(encounter: &Encounter) -> Option<Nominal> {
     check(encounter).ok()?;
-    let current_mps = encounter.weather.current_mps;
-    let ship = |hull, vessel, start| {
-        Ship::new(hull, vessel, start, current_mps).expect("the encounter was checked")
-    };
-    let own_ship = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
-    let route = Route::new(&own_ship, &encounter.own.route, encounter.own.cruise_mps);
+    let environment = Environment::new(encounter);
+    let (own_ship, ships) = environment.ships(encounter).expect("the encounter was checked");
+    let mut route = Route::new(&own_ship, &encounter.own.route, encounter.own.cruise_mps);
+    if !environment.is_steady() {
+        route = route.in_weather();
+    }
     let room = samples(encounter);
     let own = Sailor::new(own_ship, Script::Follow(route), room);
     let targets = encounter
         .targets
         .iter()
-        .map(|target| {
-            let ship = ship(target.hull, &target.vessel, &target.start);
+        .zip(ships)
+        .map(|(target, ship)| {
             let script = Script::of(&target.intent, &ship, target.start.speed_mps);
             Sailor::new(ship, script, room)
         })
         .collect();
-    Some(sail(encounter, own, targets))
+    Some(sail(encounter, environment, own, targets))
 }
 
 fn samples(encounter: &Encounter) -> usize {
@@ -78,7 +78,12 @@ impl Sailor {
     }
 }
 
-fn sail(encounter: &Encounter, mut own: Sailor, mut targets: Vec<Sailor>) -> Nominal {
+fn sail(
+    encounter: &Encounter,
+    mut environment: Environment,
+    mut own: Sailor,
+    mut targets: Vec<Sailor>,
+) -> Nominal {
     let run = encounter.run;
     let steps_a_beat = (run.beat_s / run.step_s).round() as u64;
     let goal_m = encounter.own.route.last().map_or(own.ship.pose.position_m, |w| w.position_m);
@@ -90,7 +95,6 @@ fn sail(encounter: &Encounter, mut own: Sailor, mut targets: Vec<Sailor>) -> Nom
         .collect();
     let mut bounds_m: Vec<Vec<f64>> =
         targets.iter().map(|_| Vec::with_capacity(samples(encounter))).collect();
-    let mut environment = Environment::new(encounter);
     let mut step = 0;
     loop {
         let t_s = step as f64 * run.step_s;

@@ -54,6 +54,7 @@ impl Peer {
             safety_radius_m: encounter.safety_radius_m,
             between_centres: encounter.distance == record::DistanceKind::Centre,
             beat_s: encounter.run.beat_s,
+            hazards: encounter.hazards.clone(),
             stream_seed,
         };
         let visual_range_m = match encounter.visibility {

@@ -45,7 +45,8 @@ pub struct Disturbance {
 }
 
 impl Ship {
-    /// A ship at time 0; `None` where no model has the name that `vessel` asks for.
+    /// A ship at time 0 in a drift that she knows; `None` where no model has the name that `vessel`
+    /// asks for. `start` is over ground: she lies across her course as far as the drift asks.
     pub fn new(
         outline: HullOutline,
         vessel: &Vessel,
@@ -53,10 +54,14 @@ impl Ship {
         current_mps: Vec2,
     ) -> Option<Self> {
         let model = Model::of(vessel)?;
-        let state = State::ahead(start.position_m, start.psi_rad, start.speed_mps);
+        let lies = Helm::over_ground(start.psi_rad, start.speed_mps, current_mps);
+        // ordered to stand still she lies as she did, and drifts
+        let psi_rad = if start.speed_mps > 0.0 { lies.psi_rad } else { start.psi_rad };
+        let speed_mps = if start.speed_mps > 0.0 { lies.speed_mps } else { 0.0 };
+        let speed_mps = speed_mps.min(model.limits().speed_mps_max.max(start.speed_mps));
+        let state = model.settled(State::ahead(start.position_m, psi_rad, speed_mps));
         let pose = Pose::of(&state, current_mps);
-        let helm =
-            Helm { psi_rad: state.psi_rad, direction: state.heading, speed_mps: start.speed_mps };
+        let helm = Helm { psi_rad: state.psi_rad, direction: state.heading, speed_mps };
         let hull = Hull::new(&outline);
         Some(Self {
             outline,

@@ -6,8 +6,8 @@
 //! what a ship does but the leeway, which goes with her heading.
 
 use crate::ship::{Disturbance, Ship};
-use geom::{Vec2, math};
-use record::{Encounter, Purpose, Stream, Streams, Weather};
+use geom::{HullOutline, Vec2, math};
+use record::{Encounter, Motion, Purpose, Stream, Streams, Vessel, Weather, Wind};
 
 /// The weather of one run.
 #[derive(Clone, Debug)]
@@ -124,25 +124,62 @@ impl Environment {
         if self.steady {
             return;
         }
-        let mut known_mps = self.weather.current_mps;
+        let known_mps = self.known_mps(number, ship.state.heading);
         let mut drift_mps = Vec2::new(self.current_off[0].value(), self.current_off[1].value());
         let mut yaw_rate_radps = 0.0;
         if let Some(wind) = &self.weather.wind {
-            let heading = ship.state.heading;
-            let abeam = Vec2::new(-heading.y, heading.x);
             let speed_mps = wind.velocity_mps.norm();
-            let mean_mps = abeam * (wind.leeway * wind.velocity_mps.dot(&abeam));
-            known_mps += mean_mps;
             if speed_mps > 0.0 {
-                drift_mps += mean_mps * (self.gust.value() / speed_mps);
+                drift_mps += leeway_mps(wind, ship.state.heading) * (self.gust.value() / speed_mps);
             }
         }
-        if let (Some(waves), Some(sea)) = (&self.weather.waves, self.seas.get(number)) {
-            known_mps += waves.drift_mps * sea.share;
+        if let Some(sea) = self.seas.get(number) {
             drift_mps += Vec2::new(sea.drift[0].value(), sea.drift[1].value()) * sea.share;
             yaw_rate_radps = sea.yaw.value() * sea.share;
         }
         drift_mps += known_mps;
         ship.disturb(Disturbance { known_mps, drift_mps, yaw_rate_radps });
     }
+
+    /// The part of the drift that a ship's navigator knows, m/s: constant current, leeway in the
+    /// mean wind at this heading, mean drift by waves.
+    pub fn known_mps(&self, number: usize, heading: Vec2) -> Vec2 {
+        let mut known_mps = self.weather.current_mps;
+        if let Some(wind) = &self.weather.wind {
+            known_mps += leeway_mps(wind, heading);
+        }
+        if let (Some(waves), Some(sea)) = (&self.weather.waves, self.seas.get(number)) {
+            known_mps += waves.drift_mps * sea.share;
+        }
+        known_mps
+    }
+
+    /// Own ship and the targets at time 0; `None` where a model is not known.
+    pub fn ships(&self, encounter: &Encounter) -> Option<(Ship, Vec<Ship>)> {
+        let own = &encounter.own;
+        let own = self.ship(0, own.hull, &own.vessel, &own.start)?;
+        let targets = encounter.targets.iter().zip(1..);
+        let targets = targets.map(|(t, number)| self.ship(number, t.hull, &t.vessel, &t.start));
+        Some((own, targets.collect::<Option<_>>()?))
+    }
+
+    /// A ship at time 0, on the course and at the speed over ground that she is to start with; so
+    /// she lies across her course as far as the drift that she knows asks. `None` where no model
+    /// has the name that `vessel` asks for.
+    fn ship(
+        &self,
+        number: usize,
+        hull: HullOutline,
+        vessel: &Vessel,
+        start: &Motion,
+    ) -> Option<Ship> {
+        let known_mps = self.known_mps(number, geom::unit(start.psi_rad));
+        Ship::new(hull, vessel, start, known_mps)
+    }
+}
+
+/// Leeway of a ship in the mean wind, m/s: a share of its part across her heading.
+fn leeway_mps(wind: &Wind, heading: Vec2) -> Vec2 {
+    let abeam = Vec2::new(-heading.y, heading.x);
+    abeam * (wind.leeway * wind.velocity_mps.dot(&abeam))
 }

@@ -154,13 +154,8 @@ fn end_of_planner(payload: &(dyn Any + Send)) -> (Outcome, Option<&str>) {
 
 impl<'a> World<'a> {
     fn new(encounter: &'a Encounter) -> Self {
-        let current_mps = encounter.weather.current_mps;
-        let ship = |hull, vessel, start| {
-            Ship::new(hull, vessel, start, current_mps).expect("the encounter was checked")
-        };
-        let own = ship(encounter.own.hull, &encounter.own.vessel, &encounter.own.start);
-        let targets: Vec<Ship> =
-            encounter.targets.iter().map(|t| ship(t.hull, &t.vessel, &t.start)).collect();
+        let environment = Environment::new(encounter);
+        let (own, targets) = environment.ships(encounter).expect("the encounter was checked");
         let scripts = encounter
             .targets
             .iter()
@@ -180,7 +175,7 @@ impl<'a> World<'a> {
             approaches: approaches.collect(),
             sensors: Sensors::new(encounter, &targets),
             ending: Ending::new(encounter, own.model.limits().yaw_rate_radps_max),
-            environment: Environment::new(encounter),
+            environment,
             hazards: Hazards::new(&encounter.hazards, &own),
             own_track: recorder::track_of(&own, room),
             target_tracks: targets.iter().map(|t| recorder::track_of(t, room)).collect(),
@@ -418,7 +413,7 @@ fn inertia(ship: &Ship) -> Inertia {
         Model::ThreeDof(model) => {
             Inertia { mass_kg: model.displacement_kg, yaw_kgm2: model.inertia_kgm2 }
         }
-        Model::Kinematic(_) => Inertia::of_outline(&ship.outline),
+        Model::Kinematic(_) | Model::Nomoto(_) => Inertia::of_outline(&ship.outline),
     }
 }
 
@@ -444,6 +439,7 @@ fn mission(encounter: &Encounter, own: &Ship) -> Mission {
         safety_radius_m: encounter.safety_radius_m,
         between_centres: encounter.distance == record::DistanceKind::Centre,
         beat_s: encounter.run.beat_s,
+        hazards: encounter.hazards.clone(),
         stream_seed: stream.next_u64(),
     }
 }

@@ -345,7 +345,14 @@ fn current_moves_both_and_course_over_ground_is_kept() {
         // heading into the current by asin(1 / |water speed|)
         let expected_rad = -geom::math::atan(1.0 / 6.0);
         assert!((trace.own.psi_rad[last] - expected_rad).abs() < deg(0.1));
-        // the target holds her heading and is set by the current
-        assert!((trace.targets[0].sog_mps(last) - 5.0).abs() < 1e-9);
+        // everybody starts on the course and at the speed over ground that were asked for, and
+        // the target keeps both with the heading that she has
+        let start_mps = encounter.own.start.speed_mps;
+        assert!((trace.own.sog_mps(0) - start_mps).abs() < 1e-9);
+        assert!(trace.own.cog_rad(0).abs() < 1e-9, "{}", trace.own.cog_rad(0));
+        assert!((trace.own.psi_rad[0] + geom::math::atan(1.0 / start_mps)).abs() < 1e-9);
+        let target_mps = encounter.targets[0].start.speed_mps;
+        assert!((trace.targets[0].sog_mps(last) - target_mps).abs() < 1e-9);
+        assert!((trace.targets[0].cog_rad(last) - deg(-90.0)).abs() < 1e-9);
     }
 }

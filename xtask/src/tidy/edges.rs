@@ -31,6 +31,7 @@ const LIGHT: &[&str] = &[
     "planners",
     "planner-host",
     "encounter",
+    "ais",
     "sim",
     "rules",
     "stats",

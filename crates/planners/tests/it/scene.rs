@@ -89,6 +89,7 @@ impl Scene {
             safety_radius_m: self.radius_m,
             between_centres: self.target_length_m.is_none(),
             beat_s: 1.0,
+            hazards: Vec::new(),
             stream_seed: 7,
         }
     }

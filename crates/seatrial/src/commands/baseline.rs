@@ -1,10 +1,10 @@
 //! `baseline`: stores a planner that later changes are measured against.
 
-use crate::say::say;
 use super::gate_arms::{self, Arms};
 use super::gate_git::git;
 use crate::cli_gate::BaselineArgs;
 use crate::exit::Ended;
+use crate::say::say;
 use crate::{build, embedded};
 use campaign::Error;
 use gate::serve::Identity;

@@ -1,7 +1,7 @@
 //! `conformance`: the kit of `planner-api` against one planner, also one from outside.
 
-use crate::say::say;
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::Error;
 use planner_api::{Registry, conformance};
 

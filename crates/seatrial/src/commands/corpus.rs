@@ -1,10 +1,10 @@
 //! `corpus`: every case must get the verdict that its file holds.
 
-use crate::say::say;
 use super::gate_arms;
 use crate::cli_gate::CorpusArgs;
 use crate::embedded;
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::Error;
 use gate::corpus::{self, Case};
 use gate::spec::PlannerSpec;

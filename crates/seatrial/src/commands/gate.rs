@@ -1,11 +1,11 @@
 //! `gate`: may this change of a planner be merged?
 
-use crate::say::{say, say_text};
 use super::gate_arms::{self, Arms, Side};
 use crate::cli_gate::GateArgs;
 use crate::embedded;
 use crate::exit::Ended;
 use crate::progress::Progress;
+use crate::say::{say, say_text};
 use crate::timing::Stopwatch;
 use campaign::{Error, Plan};
 use gate::memory::{Echo, Heard};

@@ -1,7 +1,7 @@
 //! `gate --replay`: one encounter of a gate again, under both planners, with a picture of each.
 
-use crate::say::say;
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::{Error, worker};
 use gate::GateReport;
 use planner_api::Registry;

@@ -1,9 +1,9 @@
 //! `gate --self-test`: what must not fail does not, and what must fail does.
 
-use crate::say::say;
 use super::gate_arms::Arms;
 use crate::cli_gate::GateArgs;
 use crate::exit::Ended;
+use crate::say::say;
 use crate::timing::Stopwatch;
 use campaign::{Error, Plan};
 use gate::memory::Remembered;

@@ -9,6 +9,7 @@ mod corpus;
 mod engine;
 mod evidence;
 mod finish;
+mod fit_ais;
 mod gate;
 mod gate_arms;
 mod gate_git;
@@ -17,6 +18,7 @@ mod gate_self_test;
 mod gate_write;
 mod intervals;
 mod judge;
+mod manoeuvres;
 mod planners;
 mod replay;
 mod shards;
@@ -40,6 +42,8 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Planners => planners::run(&registry),
         Command::Conformance { planner } => conformance::run(&planner, registry),
         Command::Speed { encounters } => speed::run(encounters, &registry),
+        Command::Manoeuvres { out } => manoeuvres::run(out.as_deref()),
+        Command::FitAis { file, out, seed } => fit_ais::run(&file, &out, seed),
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),

@@ -1,10 +1,10 @@
 //! `shrink`: a failing encounter of a result becomes a small case of the corpus.
 
-use crate::say::say;
 use super::gate_arms;
 use crate::cli_gate::ShrinkArgs;
 use crate::embedded;
 use crate::exit::Ended;
+use crate::say::say;
 use campaign::plan::RulesChoice;
 use campaign::worker::Shop;
 use campaign::{Error, Folder, Plan};

@@ -59,6 +59,16 @@ impl Kinematic {
         next.yaw_rate_radps = if turning_s > dt_s { rate_radps } else { 0.0 };
         next
     }
+
+    /// Moves through `dt_s` seconds at a share of the largest turn rate and of the largest
+    /// acceleration, both from -1 to 1; she does not go astern.
+    pub(super) fn by_hand(&self, state: &State, turn: f64, gain: f64, dt_s: f64) -> State {
+        let rate_radps = turn.clamp(-1.0, 1.0) * self.yaw_rate_radps_max;
+        let acceleration_mps2 = gain.clamp(-1.0, 1.0) * self.acceleration_mps2_max;
+        let stops = -state.surge_mps / dt_s;
+        let next = arc(state, rate_radps, acceleration_mps2.max(stops), dt_s);
+        State { yaw_rate_radps: rate_radps, ..next }
+    }
 }
 
 /// Constant turn rate and acceleration for `dt_s` seconds.

@@ -3,13 +3,22 @@
 //! Every model follows the same order, a heading and a speed through the water ([`Helm`]), within
 //! the limits of its actuators. The state is relative to the water; a constant current carries it.
 
+mod frigate;
+mod gunnerus;
 mod helm;
 mod kinematic;
+mod nomoto;
+mod slew;
 mod three_dof;
+pub mod trial;
 mod viknes;
 
+pub use frigate::FRIGATE;
+pub use gunnerus::GUNNERUS;
 pub use helm::Helm;
 pub use kinematic::Kinematic;
+pub use nomoto::{Gains, Nomoto};
+pub use slew::{Actuators, Rates, Steering};
 pub use three_dof::{Autopilot, Damping, MassMatrix, Propulsion, ThreeDof};
 pub use viknes::VIKNES;
 
@@ -31,6 +40,8 @@ pub struct State {
     pub sway_mps: f64,
     /// Yaw rate, rad/s, positive to starboard.
     pub yaw_rate_radps: f64,
+    /// Where rudder and engine stand, for models whose actuators take time.
+    pub actuators: Actuators,
 }
 
 impl State {
@@ -44,6 +55,7 @@ impl State {
             surge_mps,
             sway_mps: 0.0,
             yaw_rate_radps: 0.0,
+            actuators: Actuators::default(),
         }
     }
 
@@ -74,20 +86,32 @@ pub enum Model {
     Kinematic(Kinematic),
     /// Surge, sway and yaw with mass, damping and actuators.
     ThreeDof(&'static ThreeDof),
+    /// Yaw by Nomoto's first-order equation, no drift.
+    Nomoto(&'static Nomoto),
 }
 
 /// A parameter set and the name by which campaigns call it.
 struct Named {
     name: &'static str,
-    model: &'static ThreeDof,
+    model: Model,
+    length_m: f64,
 }
 
 /// Every named parameter set.
-const MODELS: [Named; 1] = [Named { name: "viknes", model: &VIKNES }];
+const MODELS: [Named; 3] = [
+    Named { name: "viknes", model: Model::ThreeDof(&VIKNES), length_m: 8.45 },
+    Named { name: "gunnerus", model: Model::ThreeDof(&GUNNERUS), length_m: 31.25 },
+    Named { name: "frigate", model: Model::Nomoto(&FRIGATE), length_m: 100.0 },
+];
 
 /// The names that [`Vessel::Model`] may have.
 pub fn known_models() -> impl Iterator<Item = &'static str> {
     MODELS.iter().map(|named| named.name)
+}
+
+/// The length over all of the ship behind a name, metres.
+pub fn length_m(name: &str) -> Option<f64> {
+    MODELS.iter().find(|named| named.name == name).map(|named| named.length_m)
 }
 
 /// What a vessel declares; `None` for a name that is not among [`known_models`].
@@ -106,10 +130,9 @@ impl Model {
                     speed_mps_max: *speed_mps_max,
                 }))
             }
-            Vessel::Model(name) => MODELS
-                .iter()
-                .find(|named| named.name == name.as_str())
-                .map(|named| Self::ThreeDof(named.model)),
+            Vessel::Model(name) => {
+                MODELS.iter().find(|named| named.name == name.as_str()).map(|named| named.model)
+            }
         }
     }
 
@@ -123,6 +146,15 @@ impl Model {
                 steerage_mps: None,
             },
             Self::ThreeDof(model) => model.limits(),
+            Self::Nomoto(model) => model.limits(),
+        }
+    }
+
+    /// The state with actuators that hold its speed, as those of a ship that has been under way.
+    pub fn settled(&self, state: State) -> State {
+        match self {
+            Self::ThreeDof(model) => model.settled(state),
+            Self::Kinematic(_) | Self::Nomoto(_) => state,
         }
     }
 
@@ -132,6 +164,7 @@ impl Model {
         match self {
             Self::Kinematic(kinematic) => kinematic.step(state, helm, current_mps, dt_s),
             Self::ThreeDof(model) => model.step(state, helm, current_mps, dt_s),
+            Self::Nomoto(model) => model.step(state, helm, current_mps, dt_s),
         }
     }
 

@@ -9,7 +9,8 @@
 //! Integrated by the classical fourth-order Runge-Kutta rule with the autopilot inside the
 //! derivative: a zero-order hold would add a delay of half a step to every manoeuvre.
 
-use super::{Helm, Limits, State};
+use super::slew::{Rates, Reach, Steering, reach};
+use super::{Actuators, Helm, Limits, State};
 use geom::{Vec2, math};
 
 /// A parameter set.
@@ -70,6 +71,10 @@ pub struct Propulsion {
     pub side_n_max: f64,
     /// Where it acts, metres forward of the origin (negative: aft).
     pub rudder_arm_m: f64,
+    /// How an angle of the steering becomes a side force, for trials with a given angle.
+    pub steering: Steering,
+    /// How fast the forces change; absent where the source gives none: at once.
+    pub rates: Option<Rates>,
 }
 
 /// Gains of the course and speed autopilot, 1/s.
@@ -153,12 +158,55 @@ impl ThreeDof {
 
     /// Moves through `dt_s` seconds.
     pub fn step(&self, state: &State, helm: &Helm, current_mps: Vec2, dt_s: f64) -> State {
-        self.integrate(state, current_mps, dt_s, |nu, heading| self.autopilot_n(nu, heading, helm))
+        self.step_with(state, current_mps, dt_s, |nu, heading| self.autopilot_n(nu, heading, helm))
+    }
+
+    /// Moves through `dt_s` seconds under the forces that `wish(nu, heading)` asks for, as far as
+    /// the actuators follow.
+    ///
+    /// An actuator is where the wish is, or as near to it as its rate allows since the start of the
+    /// step. So the wish stays inside the derivative, as it is where no rate is given.
+    #[inline]
+    pub(super) fn step_with(
+        &self,
+        state: &State,
+        current_mps: Vec2,
+        dt_s: f64,
+        wish: impl Fn(&Nu, Vec2) -> (f64, f64),
+    ) -> State {
+        let Some(rates) = self.propulsion.rates else {
+            return self.integrate(state, current_mps, dt_s, |nu, heading, _| wish(nu, heading));
+        };
+        let from = state.actuators;
+        let follow = |nu: &Nu, heading: Vec2, after_s: f64| {
+            let (thrust_n, side_n) = wish(nu, heading);
+            let thrust = Reach { from: from.engine, rate: rates.thrust_nps };
+            let side = Reach { from: from.steering, rate: rates.side_nps };
+            (reach(thrust, thrust_n, after_s), reach(side, side_n, after_s))
+        };
+        let next = self.integrate(state, current_mps, dt_s, follow);
+        let nu = [next.surge_mps, next.sway_mps, next.yaw_rate_radps];
+        let (engine, steering) = follow(&nu, next.heading, dt_s);
+        State { actuators: Actuators { engine, steering }, ..next }
+    }
+
+    /// The state with the thrust that holds its speed.
+    pub(super) fn settled(&self, state: State) -> State {
+        if self.propulsion.rates.is_none() {
+            return state;
+        }
+        let engine = self.damping[0].force(state.surge_mps);
+        State { actuators: Actuators { engine, steering: 0.0 }, ..state }
+    }
+
+    /// Thrust that holds a speed straight ahead, N.
+    pub(super) fn thrust_at_n(&self, speed_mps: f64) -> f64 {
+        self.damping[0].force(speed_mps)
     }
 
     /// Moves through `dt_s` seconds with engine and rudder off.
     pub fn coast(&self, state: &State, current_mps: Vec2, dt_s: f64) -> State {
-        self.integrate(state, current_mps, dt_s, |_, _| (0.0, 0.0))
+        self.integrate(state, current_mps, dt_s, |_, _, _| (0.0, 0.0))
     }
 
     /// Kinetic energy relative to the water, added mass included, J.
@@ -168,22 +216,24 @@ impl ThreeDof {
         0.5 * (m.surge * u * u + m.sway * v * v + 2.0 * m.sway_yaw * v * r + m.yaw * r * r)
     }
 
-    /// One Runge-Kutta step under thrust and side force from `control(nu, heading)`.
+    /// One Runge-Kutta step under thrust and side force from `control(nu, heading, after_s)`.
     #[inline]
     fn integrate(
         &self,
         state: &State,
         current_mps: Vec2,
         dt_s: f64,
-        control: impl Fn(&Nu, Vec2) -> (f64, f64),
+        control: impl Fn(&Nu, Vec2, f64) -> (f64, f64),
     ) -> State {
         let start = [state.surge_mps, state.sway_mps, state.yaw_rate_radps];
         let inverse = self.mass.inverse();
         let (mut nu, mut heading) = (start, state.heading);
         let (mut nu_sum, mut path_sum) = ([0.0; 3], Vec2::zeros());
         let mut turn_sum_radps = 0.0;
+        let mut at = 0.0;
         for (share, reach) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
-            let (thrust_n, side_n) = control(&nu, heading);
+            let (thrust_n, side_n) = control(&nu, heading, at * dt_s);
+            at = reach;
             let rate = self.acceleration(&nu, thrust_n, side_n, &inverse);
             let [u, v, r] = nu;
             path_sum.x += share * (heading.x * u - heading.y * v);
@@ -206,6 +256,7 @@ impl ThreeDof {
             surge_mps: start[0] + sixth_s * nu_sum[0],
             sway_mps: start[1] + sixth_s * nu_sum[1],
             yaw_rate_radps: start[2] + sixth_s * nu_sum[2],
+            actuators: state.actuators,
         }
     }
 
@@ -320,6 +371,20 @@ mod tests {
         assert!((sway_s / 3600.0 - 65.0).abs() < 0.5, "{sway_s}");
         assert!((yaw_s / 3600.0 - 25.0).abs() < 0.5, "{yaw_s}");
         assert!(!sr108.is_a_ship());
+    }
+
+    /// The tanker of the same source (its `vessel_2`, 304.8 m) has the same slip: sway lives for
+    /// 117 hours. CyberShip II at the scale of the model, 1.255 m, has the constants of a ship.
+    #[test]
+    fn the_other_sets_of_the_source() {
+        let hours = |mass: f64, damping: f64| mass / damping / 3600.0;
+        let tanker_sway_h = hours(63_417_860.87 + 67_881_333.765_2, 311.296_240_396);
+        let tanker_yaw_h = hours(429_505_809_549.96 + 406_272_307_922.226, 5_184_423.652);
+        assert!((tanker_sway_h - 117.0).abs() < 0.5, "{tanker_sway_h}");
+        assert!((tanker_yaw_h - 44.8).abs() < 0.1, "{tanker_yaw_h}");
+        assert!(tanker_sway_h * 3600.0 > TIME_CONSTANT_S_MAX);
+        let model_s = [25.8 / 0.722_53, 33.8 / 0.889_65, 2.76 / 1.9];
+        assert!(model_s.iter().all(|t_s| (0.1..=TIME_CONSTANT_S_MAX).contains(t_s)), "{model_s:?}");
     }
 
     #[test]

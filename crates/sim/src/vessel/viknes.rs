@@ -4,7 +4,7 @@
 //! NTNU's colav-simulator (`core/models.py`, MIT licence), which gives no added mass. The gains are
 //! ours.
 
-use super::{Autopilot, Damping, MassMatrix, Propulsion, ThreeDof};
+use super::{Autopilot, Damping, MassMatrix, Propulsion, Steering, ThreeDof};
 use geom::units::deg;
 
 /// Viknes 830: length 8.45 m, beam 2.71 m.
@@ -23,6 +23,9 @@ pub static VIKNES: ThreeDof = ThreeDof {
         astern_n_max: 6550.0,
         side_n_max: 645.0,
         rudder_arm_m: -4.0,
+        // the source gives a force and no angle
+        steering: Steering::Proportional { angle_rad_max: deg(35.0) },
+        rates: None,
     },
     // Critically damped together; the steering can brake the turn that the course gain asks for:
     // 0.262 rad/s * 0.35 / s < 645 N * 4 m / 19703 kg m^2.

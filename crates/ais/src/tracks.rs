@@ -1,0 +1,183 @@
+//! Reports become tracks: one for each identity, in the order of time, without wild positions.
+
+use crate::read::{Counted, Reasons, Report};
+use encounter::geographic::{Geographic, TangentPlane};
+use geom::Vec2;
+use std::collections::BTreeMap;
+
+/// The reports of one ship, in the plane.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// Who.
+    pub mmsi: u64,
+    /// Length, metres, where one of her reports says it: the largest.
+    pub length_m: Option<f64>,
+    /// Her reports, earliest first; no two at one time.
+    pub points: Vec<Point>,
+}
+
+/// Where she was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// When, seconds since 1970.
+    pub t_s: f64,
+    /// Metres north and east of the middle of all reports.
+    pub position_m: Vec2,
+    /// Speed over ground, m/s.
+    pub sog_mps: f64,
+    /// Course over ground, radians.
+    pub cog_rad: Option<f64>,
+}
+
+/// No ship goes faster between two reports, m/s (97 knots; fast ferries make 45).
+const SPEED_MPS_MAX: f64 = 50.0;
+/// Errors of two positions together, metres: at short intervals they look like speed.
+const POSITION_ERROR_M: f64 = 200.0;
+
+/// Makes tracks; `reasons` counts what is left out, by report.
+pub fn tracks(reports: &[Report], reasons: &mut Reasons) -> Vec<Track> {
+    let Some(middle) = middle(reports) else { return Vec::new() };
+    let plane = TangentPlane::new(middle);
+    let mut by_ship: BTreeMap<u64, Vec<&Report>> = BTreeMap::new();
+    for report in reports {
+        by_ship.entry(report.mmsi).or_default().push(report);
+    }
+    let tracks = by_ship.into_iter().map(|(mmsi, mut reports)| {
+        let disorder = reports.windows(2).filter(|pair| pair[1].t_s < pair[0].t_s).count();
+        note(reasons, "times out of order, put right", disorder);
+        reports.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+        let all = reports.len();
+        reports.dedup_by(|later, first| later.t_s <= first.t_s);
+        note(reasons, "a second report at the same time", all - reports.len());
+        let length_m = reports.iter().filter_map(|r| r.length_m).reduce(f64::max);
+        let points: Vec<Point> = reports
+            .iter()
+            .map(|r| Point {
+                t_s: r.t_s,
+                position_m: plane.position_m(Geographic { lat_deg: r.lat_deg, lon_deg: r.lon_deg }),
+                sog_mps: r.sog_mps,
+                cog_rad: r.cog_rad,
+            })
+            .collect();
+        let tame = tame(&points);
+        note(reasons, "a wild position", points.len() - tame.len());
+        Track { mmsi, length_m, points: tame }
+    });
+    tracks.collect()
+}
+
+fn note(reasons: &mut Reasons, reason: &'static str, count: usize) {
+    if count > 0 {
+        let entry = reasons.entry(reason).or_insert(Counted { count: 0, first_line: 0 });
+        entry.count += count as u64;
+    }
+}
+
+/// Medians of latitude and longitude: one wild position does not move them.
+fn middle(reports: &[Report]) -> Option<Geographic> {
+    let median = |value: fn(&Report) -> f64| {
+        let mut values: Vec<f64> = reports.iter().map(value).collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    Some(Geographic { lat_deg: median(|r| r.lat_deg)?, lon_deg: median(|r| r.lon_deg)? })
+}
+
+/// Points that a ship could have come to from one before or gone from to one after. A position
+/// that is far from all of them is wild.
+fn tame(points: &[Point]) -> Vec<Point> {
+    let can = |a: &Point, b: &Point| {
+        let most_m = SPEED_MPS_MAX * (b.t_s - a.t_s) + POSITION_ERROR_M;
+        (b.position_m - a.position_m).norm() <= most_m
+    };
+    // two on either side, so that the neighbour of a wild one is not taken for wild
+    let keep = |&k: &usize| {
+        let mut before = points[k.saturating_sub(2)..k].iter();
+        let mut after = points[k + 1..points.len().min(k + 3)].iter();
+        points.len() == 1
+            || before.any(|other| can(other, &points[k]))
+            || after.any(|other| can(&points[k], other))
+    };
+    (0..points.len()).filter(keep).map(|k| points[k]).collect()
+}
+
+/// Where a ship was between two reports, and how she moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fix {
+    /// Metres north and east.
+    pub position_m: Vec2,
+    /// Velocity between the reports around it, m/s.
+    pub velocity_mps: Vec2,
+    /// Reported speed, m/s.
+    pub sog_mps: f64,
+}
+
+/// Nothing is said between two reports that lie farther apart, seconds: the slowest station under
+/// way reports every thirty (class B), and some messages are lost.
+pub const GAP_S_MAX: f64 = 120.0;
+
+impl Track {
+    /// Where she was at a time; `None` outside her reports and in their gaps.
+    pub fn at(&self, t_s: f64) -> Option<Fix> {
+        let after = self.points.partition_point(|point| point.t_s <= t_s);
+        let before = self.points.get(after.checked_sub(1)?)?;
+        let after = self.points.get(after)?;
+        let apart_s = after.t_s - before.t_s;
+        if apart_s > GAP_S_MAX {
+            return None;
+        }
+        let share = (t_s - before.t_s) / apart_s;
+        let way_m = after.position_m - before.position_m;
+        Some(Fix {
+            position_m: before.position_m + way_m * share,
+            velocity_mps: way_m / apart_s,
+            sog_mps: before.sog_mps + share * (after.sog_mps - before.sog_mps),
+        })
+    }
+
+    /// Velocity over ground over a span of time around `t_s`: smoother than between two reports.
+    pub fn velocity_mps(&self, t_s: f64, span_s: f64) -> Option<Vec2> {
+        let (from, to) = (self.at(t_s - 0.5 * span_s)?, self.at(t_s + 0.5 * span_s)?);
+        Some((to.position_m - from.position_m) / span_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report(t_s: f64, lon_deg: f64) -> Report {
+        Report { mmsi: 7, t_s, lat_deg: 0.0, lon_deg, sog_mps: 5.0, cog_rad: None, length_m: None }
+    }
+
+    /// 0.0001 degrees of longitude are 11.13 m at the equator.
+    #[test]
+    fn wild_positions_go_and_the_order_is_put_right() {
+        let reports = [
+            report(20.0, 1.0002),
+            report(0.0, 1.0),
+            report(10.0, 1.0001),
+            report(30.0, 55.0),
+            report(40.0, 1.0004),
+            report(40.0, 1.0004),
+        ];
+        let mut reasons = Reasons::new();
+        let tracks = tracks(&reports, &mut reasons);
+        let times: Vec<f64> = tracks[0].points.iter().map(|p| p.t_s).collect();
+        assert_eq!(times, [0.0, 10.0, 20.0, 40.0]);
+        assert_eq!(reasons["a wild position"].count, 1);
+        assert_eq!(reasons["a second report at the same time"].count, 1);
+        assert_eq!(reasons["times out of order, put right"].count, 1);
+        let fix = tracks[0].at(5.0).unwrap();
+        assert!((fix.velocity_mps.y - 1.113_195).abs() < 1e-4, "{:?}", fix.velocity_mps);
+        assert_eq!(tracks[0].at(41.0), None);
+        assert_eq!(tracks[0].at(-1.0), None);
+    }
+
+    #[test]
+    fn gaps_say_nothing() {
+        let mut reasons = Reasons::new();
+        let tracks = tracks(&[report(0.0, 1.0), report(300.0, 1.001)], &mut reasons);
+        assert_eq!(tracks[0].at(150.0), None);
+    }
+}
