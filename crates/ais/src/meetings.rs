@@ -133,8 +133,7 @@ fn closest(a: &Track, b: &Track) -> Option<Closest> {
         }
     }
     // ships that only pass a berth or an anchorage have their closest point with one at rest
-    let best = best.filter(|best| best.moving);
-    best
+    best.filter(|best| best.moving)
 }
 
 fn start(a: &Track, b: &Track, closest: &Closest) -> Result<[Start; 2], &'static str> {

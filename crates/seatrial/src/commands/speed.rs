@@ -56,6 +56,9 @@ enum Floor {
     LeftOut,
 }
 
+/// Name and seconds of each stage.
+type Stages = Vec<(&'static str, f64)>;
+
 struct Bench<'a> {
     encounters: Vec<Encounter>,
     entry: &'a planner_api::PlannerEntry,
@@ -92,7 +95,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Seconds of the floor and of each stage over all encounters on one core.
-    fn stages(&self, floor: Floor) -> Result<(f64, Vec<(&'static str, f64)>), Error> {
+    fn stages(&self, floor: Floor) -> Result<(f64, Stages), Error> {
         let mut planner =
             (self.entry.make)(&self.entry.options).map_err(|e| Error::input(e.to_string()))?;
         let mut scratch = sim::Scratch::default();
