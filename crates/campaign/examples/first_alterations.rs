@@ -1,8 +1,8 @@
 //! On which side own ship first altered, and how often Rule 8(c) failed: the tables of
 //! `docs/measured/paper-random.md`, straight from the seed, without a result's folder.
 //!
-//! `cargo run --release -p campaign --example first_alterations -- campaigns/paper-random.toml zhuang`
-//! names any number of planners; every encounter of the file is run.
+//! `cargo run --release -p campaign --example first_alterations -- FILE PLANNER...`, with FILE
+//! `campaigns/paper-random.toml`; every encounter of the file is run.
 #![forbid(unsafe_code)]
 
 use campaign::plan::{Build, Plan};

@@ -53,6 +53,7 @@ fn facts(class: EncounterClass, role: Role) -> PairFacts {
         target: 0,
         risk_s: Some(0.0),
         class: Some(class),
+        class_by_bearings: Some(class),
         role,
         ambiguous: false,
         beta_rad: None,

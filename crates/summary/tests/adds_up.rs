@@ -236,7 +236,7 @@ proptest! {
     }
 }
 
-/// Encounters that nobody could avoid stay in the headline rates, and a second line leaves them out.
+/// Encounters that nobody could avoid stay in the headline rates; a second line leaves them out.
 #[test]
 fn unavoidable_runs_stay_in_the_rates_and_are_left_out_of_the_second_line() {
     let rows: Vec<RunRow> = (0..10)
