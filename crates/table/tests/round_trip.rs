@@ -137,9 +137,9 @@ fn columns_carry_the_names_of_the_fields() {
     unique.sort();
     unique.dedup();
     assert_eq!(unique.len(), names.len());
-    // Every field of a row is in the file: 35 plain ones, of them two in two columns (reactions),
+    // Every field of a row is in the file: 38 plain ones, of them two in two columns (reactions),
     // the id in three, six events, and two columns for each check.
-    assert_eq!(names.len(), 44 + 2 * Check::COUNT);
+    assert_eq!(names.len(), 47 + 2 * Check::COUNT);
 }
 
 #[test]
