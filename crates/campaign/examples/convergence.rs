@@ -2,14 +2,15 @@
 //! and prints what changed: `cargo run --release -p campaign --example convergence [ENCOUNTERS]`.
 #![forbid(unsafe_code)]
 
-use campaign::plan::Build;
+mod common;
+
 use campaign::worker::{Shop, Worker};
-use campaign::{CampaignFile, Error, Overrides, Plan};
+use campaign::{Error, Overrides, Plan};
 use record::{Check, RunRow, Status};
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU64;
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../campaigns");
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../campaigns/quick.toml");
 
 fn main() -> Result<(), Error> {
     let arguments: Vec<String> = std::env::args().collect();
@@ -28,25 +29,11 @@ fn main() -> Result<(), Error> {
 }
 
 fn plan(planner: &str, step_factor: f64) -> Result<Plan, Error> {
-    let read = |path: String| {
-        std::fs::read_to_string(&path).map_err(|e| Error::input(format!("{path}: {e}")))
-    };
-    let mut file = CampaignFile::parse(&read(format!("{FOLDER}/quick.toml"))?, "quick")?;
-    file.run.step_s *= step_factor;
-    file.run.twice_run_share = 0.0;
-    let none = || "none".to_owned();
-    let build = Build {
-        tool_version: none(),
-        git_commit: none(),
-        git_clean: true,
-        engine: none(),
-        planners: none(),
-        cargo_lock_sha256: none(),
-        rustc: none(),
-    };
     let overrides = Overrides { planners: vec![planner.to_owned()], ..Overrides::default() };
-    let rules = |name: &str| read(format!("{FOLDER}/rulesets/{name}.toml"));
-    let plans = file.resolve(&overrides, None, &planners::registry(), &rules, &build)?;
+    let plans = common::plans(FILE, &overrides, &planners::registry(), |file| {
+        file.run.step_s *= step_factor;
+        file.run.twice_run_share = 0.0;
+    })?;
     plans.into_iter().next().ok_or_else(|| Error::Fault("no plan".to_owned()))
 }
 

@@ -5,9 +5,10 @@
 //! `campaigns/paper-random.toml`; every encounter of the file is run.
 #![forbid(unsafe_code)]
 
-use campaign::plan::{Build, Plan};
+mod common;
+
 use campaign::worker::{Shop, Worker};
-use campaign::{CampaignFile, Error, Overrides};
+use campaign::{Error, Overrides, Plan};
 use record::{Check, RunRow, Status};
 use std::sync::atomic::AtomicU64;
 
@@ -31,9 +32,7 @@ fn main() -> Result<(), Error> {
     };
     let overrides = Overrides { planners: planners.to_vec(), ..Overrides::default() };
     let registry = planners::registry();
-    let rules = |name: &str| read(&format!("campaigns/rulesets/{name}.toml"));
-    let campaign = CampaignFile::parse(&read(file)?, file)?;
-    let plans = campaign.resolve(&overrides, None, &registry, &rules, &build())?;
+    let plans = common::plans(file, &overrides, &registry, |_| ())?;
     println!(
         "| planner | class | n | first to port | to starboard | none | turn direction failed | \
          Rule 8(c) failed |"
@@ -96,22 +95,5 @@ impl Line {
             third.0,
             third.1
         );
-    }
-}
-
-fn read(path: &str) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|e| Error::input(format!("cannot read {path}: {e}")))
-}
-
-fn build() -> Build {
-    let none = || String::from("example");
-    Build {
-        tool_version: none(),
-        git_commit: none(),
-        git_clean: false,
-        engine: none(),
-        planners: none(),
-        cargo_lock_sha256: none(),
-        rustc: none(),
     }
 }

@@ -3,11 +3,12 @@
 //! `cargo run --release -p campaign --example judges -- campaigns/quick.toml zhuang 2000`
 #![forbid(unsafe_code)]
 
+mod common;
+
 use campaign::judges::{Disagreement, Judges};
-use campaign::plan::Build;
 use campaign::spec::RunTable;
 use campaign::worker::{Shop, Worker};
-use campaign::{CampaignFile, Error, Overrides};
+use campaign::{Error, Overrides};
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU64;
 use std::time::{Duration, Instant};
@@ -25,16 +26,13 @@ fn main() -> Result<(), Error> {
     let [file, planner, encounters] = &words[..] else {
         return Err(Error::input("usage: judges CAMPAIGN.toml PLANNER ENCOUNTERS_PER_STRATUM"));
     };
-    let text = read(file)?;
     let overrides = Overrides {
         planners: vec![planner.clone()],
         encounters: Some(encounters.parse().map_err(|_| Error::input("not a number"))?),
         ..Overrides::default()
     };
     let registry = planners::registry();
-    let rules = |name: &str| read(&format!("campaigns/rulesets/{name}.toml"));
-    let campaign = CampaignFile::parse(&text, file)?;
-    let plans = campaign.resolve(&overrides, None, &registry, &rules, &build())?;
+    let plans = common::plans(file, &overrides, &registry, |_| ())?;
     let plan = &plans[0];
     let shop = Shop::new(plan, &registry)?;
     let mut worker = Worker::new(&shop)?;
@@ -84,21 +82,4 @@ fn main() -> Result<(), Error> {
 
 fn name(kind: &Disagreement) -> String {
     format!("{} {:?} {} / {:?}", kind.check.name(), kind.first, kind.detail, kind.second)
-}
-
-fn read(path: &str) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|e| Error::input(format!("cannot read {path}: {e}")))
-}
-
-fn build() -> Build {
-    let none = || String::from("example");
-    Build {
-        tool_version: none(),
-        git_commit: none(),
-        git_clean: false,
-        engine: none(),
-        planners: none(),
-        cargo_lock_sha256: none(),
-        rustc: none(),
-    }
 }

@@ -3,10 +3,11 @@
 //! `cargo run --release -p campaign --example verdicts -- campaigns/quick.toml zhuang 9 head_on/8`
 #![forbid(unsafe_code)]
 
+mod common;
+
 use campaign::judges::params;
-use campaign::plan::Build;
 use campaign::worker::{Shop, Worker};
-use campaign::{CampaignFile, Error, Overrides};
+use campaign::{Error, Overrides};
 use std::sync::atomic::AtomicU64;
 
 fn main() -> Result<(), Error> {
@@ -21,9 +22,7 @@ fn main() -> Result<(), Error> {
         ..Overrides::default()
     };
     let registry = planners::registry();
-    let rules = |name: &str| read(&format!("campaigns/rulesets/{name}.toml"));
-    let campaign = CampaignFile::parse(&read(file)?, file)?;
-    let plans = campaign.resolve(&overrides, None, &registry, &rules, &build())?;
+    let plans = common::plans(file, &overrides, &registry, |_| ())?;
     let plan = &plans[0];
     let shop = Shop::new(plan, &registry)?;
     let mut worker = Worker::new(&shop)?;
@@ -59,21 +58,4 @@ fn main() -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-fn read(path: &str) -> Result<String, Error> {
-    std::fs::read_to_string(path).map_err(|e| Error::input(format!("cannot read {path}: {e}")))
-}
-
-fn build() -> Build {
-    let none = || String::from("example");
-    Build {
-        tool_version: none(),
-        git_commit: none(),
-        git_clean: false,
-        engine: none(),
-        planners: none(),
-        cargo_lock_sha256: none(),
-        rustc: none(),
-    }
 }

@@ -1,6 +1,7 @@
 //! `git:REV`: the binary of another commit, built in a worktree with the shared target folder.
 
 use campaign::Error;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -51,14 +52,22 @@ pub(super) fn commit(revision: &str) -> Result<String, Error> {
 /// Builds into the shared target folder, where cargo puts the binary in the place of the present
 /// one; that one is put back.
 fn build_tree(tree: &Path, target: &Path, revision: &str, kept: &Path) -> Result<(), Error> {
-    let place = target.join("release").join("seatrial");
+    // as `cargo xtask` builds, so that dependencies are compiled once; older revisions had `release`
+    let optimised = tree.join(".cargo/optimised.toml");
+    let (folder, settings) = if optimised.is_file() {
+        ("debug", [OsStr::new("--config"), optimised.as_os_str()].to_vec())
+    } else {
+        ("release", [OsStr::new("--release")].to_vec())
+    };
+    let place = target.join(folder).join("seatrial");
     let present = kept.with_extension("present");
     let was_there = place.is_file();
     if was_there {
         fs::copy(&place, &present).map_err(Error::io("copy", &place))?;
     }
     let built = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["build", "--release", "--locked", "--quiet", "--package", "seatrial"])
+        .args(["build", "--locked", "--quiet", "--package", "seatrial"])
+        .args(settings)
         .current_dir(tree)
         .env("CARGO_TARGET_DIR", target)
         .status();
