@@ -41,6 +41,11 @@ pub fn registry() -> Registry {
             ZhuangOptions::when_safe(),
         ))
         .with(entry_zhuang(
+            "zhuang-class-in-beat",
+            "reading: the class of a target holds for the passes of one beat",
+            ZhuangOptions::class_in_beat(),
+        ))
+        .with(entry_zhuang(
             "zhuang-latched",
             "its smallest repair: class and side are kept until past and clear",
             ZhuangOptions::latched(),

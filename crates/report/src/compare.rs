@@ -1,7 +1,7 @@
 //! Several planners on the same encounters, side by side.
 
 use crate::figure::Figure;
-use crate::input::{Compared, Extra};
+use crate::input::{Compared, Cost, Extra};
 use crate::number::{NONE, count, fixed, per_cent_or_none, significant};
 use crate::page::{bounds, check_rate, css, fill, inline};
 use crate::write::Rendered;
@@ -23,6 +23,7 @@ pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError>
         title: "Rates and their bounds, all strata".to_owned(),
         ..figure_rates::figure(&wholes, &runs(&wholes))
     }];
+    let mut strata_tables = Vec::new();
     for name in stratum_names(columns) {
         let strata: Vec<StratumSummary> = columns
             .iter()
@@ -31,6 +32,9 @@ pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError>
                 Some(StratumSummary::new(&column.summary.planner, tally))
             })
             .collect();
+        let extra = |cost: &Cost| cost.strata.iter().find(|(n, _)| *n == name).map(|(_, e)| *e);
+        let lines = lines(&strata).into_iter().chain(extras(columns, extra)).collect();
+        strata_tables.push(StratumTable { name: name.clone(), lines });
         figures.push(Figure {
             stem: format!("comparison-{}", name.replace(|c: char| !c.is_alphanumeric(), "-")),
             title: name,
@@ -50,6 +54,7 @@ pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError>
             .map(|column| Planner { name: &column.summary.planner, link: column.link })
             .collect(),
         lines: lines(&wholes).into_iter().chain(costs(columns)).collect(),
+        strata: strata_tables,
         figures: figures.iter().map(inline).collect(),
     };
     let text = fill("comparison.html", include_str!("../templates/comparison.html"), &view)?;
@@ -71,7 +76,15 @@ struct View<'a> {
     problems: Vec<String>,
     planners: Vec<Planner<'a>>,
     lines: Vec<Line>,
+    strata: Vec<StratumTable>,
     figures: Vec<Figure>,
+}
+
+/// The same lines for one stratum.
+#[derive(Serialize)]
+struct StratumTable {
+    name: String,
+    lines: Vec<Line>,
 }
 
 #[derive(Serialize)]
@@ -92,7 +105,7 @@ struct Cell {
     small: String,
 }
 
-/// More strata than this have their figures in the single reports only.
+/// More strata than this have their tables and figures in the single reports only.
 const STRATA_MAX: usize = 12;
 
 fn stratum_names(columns: &[Compared]) -> Vec<String> {
@@ -198,17 +211,35 @@ fn costs(columns: &[Compared]) -> Vec<Line> {
         let of = |class| Check::ALL.into_iter().filter(|&check| failed(class, check)).count();
         count(classes.map(of).sum::<usize>() as u64)
     })];
-    if columns.iter().any(|column| column.extra.is_some()) {
-        let of = |column: &Compared, value: fn(Extra) -> f64, decimals| {
-            fixed(column.extra.map(value), decimals)
-        };
-        lines.push(line("extra distance, m: mean", &|c| of(c, |extra| extra.distance_m, 0)));
-        lines.push(line("extra time, s: mean", &|c| of(c, |extra| extra.time_s, 1)));
-        lines.push(line("encounters behind these two", &|column| {
-            column.extra.map_or_else(|| NONE.to_owned(), |extra| count(extra.encounters))
+    lines.extend(extras(columns, |cost| Some(cost.whole)));
+    if columns.iter().any(|column| column.cost.is_some()) {
+        lines.push(line("planning, us per call: mean (wall clock of this machine)", &|column| {
+            fixed(column.cost.map(|cost| cost.planning_us_per_call), 2)
         }));
     }
     lines
+}
+
+/// Extra way and time, of the encounters that were run again.
+fn extras(columns: &[Compared], of: impl Fn(&Cost) -> Option<Extra>) -> Vec<Line> {
+    if columns.iter().all(|column| column.cost.is_none()) {
+        return Vec::new();
+    }
+    let extra = |column: &Compared| column.cost.and_then(&of);
+    let line = |label: &str, cell: &dyn Fn(Option<Extra>) -> String| Line {
+        label: label.to_owned(),
+        cells: columns
+            .iter()
+            .map(|column| Cell { value: cell(extra(column)), small: String::new() })
+            .collect(),
+    };
+    vec![
+        line("extra distance, m: mean", &|extra| fixed(extra.map(|e| e.distance_m), 0)),
+        line("extra time, s: mean", &|extra| fixed(extra.map(|e| e.time_s), 1)),
+        line("encounters behind these two", &|extra| {
+            extra.map_or_else(|| NONE.to_owned(), |e| count(e.encounters))
+        }),
+    ]
 }
 
 fn ratio_cell(pairs: &PairedRates) -> Cell {

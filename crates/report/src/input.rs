@@ -85,16 +85,28 @@ pub struct Compared<'a> {
     /// Its report, relative to the comparison: `zhuang/report.html`.
     pub link: &'a str,
     /// What avoiding cost; absent where it was not measured.
-    pub extra: Option<Extra>,
+    pub cost: Option<&'a Cost>,
 }
 
-/// What avoiding cost on the way: means over the first encounters of each stratum.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What avoiding cost, over the first encounters of each stratum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cost {
+    /// Mean wall clock of one call of the planner, microseconds: a fact of one machine at one time,
+    /// and the only one in a comparison.
+    pub planning_us_per_call: f64,
+    /// All strata together.
+    pub whole: Extra,
+    /// Each stratum by its name.
+    pub strata: Vec<(String, Extra)>,
+}
+
+/// What avoiding cost on the way: means over some encounters.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extra {
     /// Encounters that were looked at.
     pub encounters: u64,
-    /// Way sailed and way still to go, less the planned way, metres.
+    /// Way sailed to the passage of the goal and way still to go, less the planned way, metres.
     pub distance_m: f64,
-    /// The same for time at planned speed, seconds.
+    /// The same for time, what is still to go at planned speed, seconds.
     pub time_s: f64,
 }

@@ -36,7 +36,7 @@ mod write;
 
 pub use error::ReportError;
 pub use figure::{DataTable, Figure};
-pub use input::{Card, Case, Compared, Extra, Found, ReportInput};
+pub use input::{Card, Case, Compared, Cost, Extra, Found, ReportInput};
 pub use manoeuvres::{Trials, manoeuvres_picture};
 pub use page::css;
 pub use write::{Rendered, case_picture, draw_case, render, write, write_comparison};

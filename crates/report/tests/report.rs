@@ -4,7 +4,7 @@ mod fixture;
 
 use fixture::{card, case, row};
 use record::{DistanceKind, EncounterClass, Outcome, Reaction, Seed};
-use report::{Case, Compared, ReportInput, render, write};
+use report::{Case, Compared, Cost, Extra, ReportInput, render, write};
 use std::fs;
 use summary::{Summary, SummaryHead, Tallies};
 
@@ -250,7 +250,7 @@ fn planners_stand_side_by_side_only_over_the_same_encounters() {
     let (_, tallies_b) = data(&classes(), 200, 10);
     let b = summary(&tallies_b, &classes(), "hold-course");
     let column =
-        |summary, tallies, link| Compared { card: &card, summary, tallies, link, extra: None };
+        |summary, tallies, link| Compared { card: &card, summary, tallies, link, cost: None };
     let columns = [
         column(&a, &tallies_a, "zhuang/report.html"),
         column(&b, &tallies_b, "hold-course/report.html"),
@@ -260,7 +260,23 @@ fn planners_stand_side_by_side_only_over_the_same_encounters() {
     let text = text.replace("&#x2f;", "/");
     assert!(text.contains("<a href=\"hold-course/report.html\">hold-course</a>"));
     assert!(text.contains("2 % (20 of 1,000)") && text.contains("10 % (100 of 1,000)"));
-    assert!(!text.contains("cannot be compared"));
+    assert!(!text.contains("cannot be compared") && !text.contains("extra distance"));
+    let extra = |encounters, distance_m| Extra { encounters, distance_m, time_s: 7.25 };
+    let cost = Cost {
+        planning_us_per_call: 1.375,
+        whole: extra(10, 123.0),
+        strata: vec![("head_on".to_owned(), extra(5, 321.0))],
+    };
+    let columns = columns.map(|column| Compared { cost: Some(&cost), ..column });
+    report::write_comparison(folder.path(), &columns).unwrap();
+    let text = fs::read_to_string(folder.path().join("comparison.html")).unwrap();
+    let of = |number: &str| text.matches(&format!("<td>{number}</td>")).count();
+    // both planners; all strata together, then the one that was looked at
+    assert_eq!([of("123"), of("321"), of("7.2"), of("1.38")], [2, 2, 4, 2], "{text}");
+    // rates of each stratum with their bounds stand in tables of their own
+    for name in classes() {
+        assert!(text.contains(&format!("<h2>{name}</h2>")), "{name}");
+    }
     let (c, tallies_c) = data(&classes(), 199, 10);
     let columns = [columns[0], column(&c, &tallies_c, "c/report.html")];
     report::write_comparison(folder.path(), &columns).unwrap();

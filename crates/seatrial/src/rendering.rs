@@ -168,6 +168,11 @@ fn sentence(event: Event, case: &Case) -> (String, Option<f64>) {
             );
             (said, Some(at_s))
         }),
+        Event::Planner(event) => {
+            let beats = event.beats(&trace.events);
+            let on = if beats == 1 { "one beat".to_owned() } else { format!("{beats} beats") };
+            (format!("The planner counted of itself, on {on}: {}.", event.title()), None)
+        }
         Event::Unknown(outcome) => (
             format!("{} {:.0} s after the start.", outcome.name().replace('_', " "), trace.end_s),
             Some(trace.end_s),

@@ -3,6 +3,7 @@
 //! Rows go in, in any number and in order of id; a finding holds how many there were and the worst
 //! of them. Memory grows with the kinds, not with the rows.
 
+use crate::PlannerEvent;
 use record::{Check, EncounterClass, EncounterId, Outcome, RunRow, Status};
 use std::collections::BTreeMap;
 
@@ -17,6 +18,8 @@ pub enum Event {
     SafetyRadius,
     /// A check of the judge failed.
     Failed(Check),
+    /// The planner counted this of itself, on at least one beat.
+    Planner(PlannerEvent),
 }
 
 impl Event {
@@ -29,6 +32,7 @@ impl Event {
             }
             Self::SafetyRadius => "safety radius broken".to_owned(),
             Self::Failed(check) => format!("{}: fail", check.title()),
+            Self::Planner(event) => format!("planner's count: {}", event.title()),
         }
     }
 }
@@ -42,8 +46,8 @@ pub struct Finding {
     pub class: Option<EncounterClass>,
     /// Runs in which it did.
     pub count: u64,
-    /// The worst of them: the hardest contact, the smallest distance, the smallest margin; of
-    /// equals the first.
+    /// The worst of them: the hardest contact, the smallest distance, the smallest margin, the most
+    /// beats; of equals the first.
     pub worst: EncounterId,
     /// How it ended.
     pub worst_outcome: Outcome,
@@ -70,6 +74,12 @@ impl Findings {
             let cell = row.check(check);
             if cell.status == Status::Fail {
                 self.add(Event::Failed(check), -cell.margin.unwrap_or(0.0), row);
+            }
+        }
+        for event in PlannerEvent::ALL {
+            let beats = event.beats(&row.events);
+            if beats > 0 {
+                self.add(Event::Planner(event), f64::from(beats), row);
             }
         }
     }

@@ -10,6 +10,7 @@ mod bearing_map;
 mod build;
 mod findings;
 mod fixed_point;
+mod planner_event;
 mod risk;
 mod summary;
 mod tallies;
@@ -20,6 +21,7 @@ pub use bearing_map::{BEARING_SECTORS, BearingMap, Cell, CellKey, RATIO_BANDS};
 pub use build::check_rate;
 pub use findings::{Event, Finding, Findings};
 pub use fixed_point::FixedSum;
+pub use planner_event::PlannerEvent;
 pub use risk::PairedCounts;
 pub use summary::{
     AvoidableRates, BoundedRate, CpaSummary, PairedRates, SecondJudge, StratumSummary, Summary,

@@ -1,10 +1,16 @@
 //! What is remembered of each target: its class, own ship's duty, and whether she may act.
 
 use super::options::CorrectedOptions;
+use super::steady::Seen;
 use geom::{
-    EncounterClass, HeadOnSector, Relative, class::OVERTAKING_SECTOR_RAD, classify, units::deg,
+    EncounterClass, HeadOnSector, Relative, Vec2, class::OVERTAKING_SECTOR_RAD, classify,
+    units::deg,
 };
-use planner_api::{OwnState, TargetTrack};
+use planner_api::OwnState;
+
+/// A track so bad that its prediction is off by more than this must not keep a stand-on ship from
+/// acting, metres.
+const STAND_ON_DOUBT_M_MAX: f64 = 40.0;
 
 /// An encounter from first risk until past and clear.
 #[derive(Clone, Copy, Debug)]
@@ -19,10 +25,34 @@ pub struct Encounter {
     pub beta_rad: f64,
     /// The class was in doubt: it may be a crossing to the other ship.
     pub doubtful: bool,
+    /// She was on own port side at first risk.
+    pub was_to_port: bool,
     /// Own ship gives way, or stands on and has seen the other one do nothing (17(a)(ii)).
     pub may_act: bool,
     /// Stand-on: since when the prediction has been too close, seconds.
     pub too_close_since_s: Option<f64>,
+    /// Where the target was last seen, and how she moved.
+    pub last: LastSeen,
+}
+
+/// A target as she was last seen.
+#[derive(Clone, Copy, Debug)]
+pub struct LastSeen {
+    /// Simulated time, seconds.
+    pub t_s: f64,
+    /// Metres north and east.
+    pub position_m: Vec2,
+    /// m/s north and east.
+    pub velocity_mps: Vec2,
+    /// Distance that was planned to her, metres.
+    pub plan_m: f64,
+}
+
+impl LastSeen {
+    /// Where she is if she went on so, metres.
+    pub fn place_m(&self, t_s: f64) -> Vec2 {
+        self.position_m + self.velocity_mps * (t_s - self.t_s)
+    }
 }
 
 /// What the moment says about a target.
@@ -32,18 +62,18 @@ pub struct Moment {
     pub t_s: f64,
     /// Distance between reference points, as the stages of an encounter are measured, metres.
     pub range_m: f64,
-    /// Predicted distance hull to hull (between centres where the mission says so) at the present
-    /// velocities, metres.
-    pub dcpa_m: f64,
     /// Rate of closing, m/s; negative when the range opens.
     pub closing_mps: f64,
     /// Relative bearing, radians, positive to starboard.
     pub beta_rad: f64,
+    /// Standard deviation of the predicted distance, metres.
+    pub cpa_sd_m: f64,
 }
 
 impl Encounter {
     /// A new one, with the class found from headings as they are now.
-    pub fn begin(own: &OwnState, track: &TargetTrack, options: &CorrectedOptions) -> Self {
+    pub fn begin(own: &OwnState, seen: &Seen, last: LastSeen, options: &CorrectedOptions) -> Self {
+        let track = &seen.track;
         let psi_rad = track.psi_rad.unwrap_or(track.cog_rad);
         let pose = Relative::new(own.position_m, own.psi_rad, track.position_m, psi_rad);
         let class = class_in_doubt(&pose, track.sog_mps, options);
@@ -56,13 +86,22 @@ impl Encounter {
             course_rad: own.cog_rad,
             beta_rad,
             doubtful,
+            was_to_port: beta_rad < 0.0,
             may_act,
             too_close_since_s: None,
+            last,
         }
     }
 
-    /// Lets a stand-on ship act once the other one has plainly done nothing.
-    pub fn watch(&mut self, moment: Moment, options: &CorrectedOptions) {
+    /// Lets a stand-on ship act once the other one has plainly done nothing. `dcpa_m` is the
+    /// distance predicted at the present velocities, hull to hull (between centres where the
+    /// mission says so), metres.
+    pub fn watch(
+        &mut self,
+        moment: Moment,
+        dcpa_m: impl FnOnce() -> f64,
+        options: &CorrectedOptions,
+    ) {
         self.beta_rad = moment.beta_rad;
         if self.may_act {
             return;
@@ -72,9 +111,11 @@ impl Encounter {
         } else {
             options.stand_on_range_m
         };
+        // a pass that may as well be wide enough is left to the other ship
+        let doubt_m = (options.sigmas * moment.cpa_sd_m).min(STAND_ON_DOUBT_M_MAX);
         let too_close = moment.range_m <= limit_m
             && moment.closing_mps > 0.0
-            && moment.dcpa_m < options.stand_on_dcpa_m;
+            && dcpa_m() + doubt_m < options.stand_on_dcpa_m;
         if !too_close {
             self.too_close_since_s = None;
             return;
@@ -95,10 +136,16 @@ impl Encounter {
     }
 
     /// The course to port of which a return to the route must not go yet: Rule 17(c) looks at the
-    /// whole time until the closest point. A range that opens during own alteration may close again
+    /// whole time until the closest point, at every ship that may be one that crosses from port. A
+    /// range that opens during own alteration may close again
     /// on the way back, so the limit lasts as long as the encounter.
     pub fn port_limit_rad(&self) -> Option<f64> {
-        (self.class == EncounterClass::CrossingPort).then_some(self.course_rad)
+        let free = match self.class {
+            EncounterClass::Overtaking => !self.doubtful,
+            EncounterClass::Static | EncounterClass::Overtaken => true,
+            _ => false,
+        };
+        (!free && self.was_to_port).then_some(self.course_rad)
     }
 
     /// Whether the target has to be left on own port hand (port to port; astern of it).
@@ -138,13 +185,20 @@ mod tests {
             course_rad: 0.0,
             beta_rad: -1.0,
             doubtful: false,
+            was_to_port: true,
             may_act: false,
             too_close_since_s: None,
+            last: LastSeen {
+                t_s: 0.0,
+                position_m: Vec2::zeros(),
+                velocity_mps: Vec2::zeros(),
+                plan_m: 200.0,
+            },
         }
     }
 
-    fn moment(t_s: f64, range_m: f64, dcpa_m: f64) -> Moment {
-        Moment { t_s, range_m, dcpa_m, closing_mps: 10.0, beta_rad: -1.0 }
+    fn moment(t_s: f64, range_m: f64, cpa_sd_m: f64) -> Moment {
+        Moment { t_s, range_m, closing_mps: 10.0, beta_rad: -1.0, cpa_sd_m }
     }
 
     #[test]
@@ -162,8 +216,22 @@ mod tests {
             // and what it may do it may go on doing
             (23.0, 580.0, 300.0, true),
         ] {
-            encounter.watch(moment(t_s, range_m, dcpa_m), &options);
+            encounter.watch(moment(t_s, range_m, 0.0), || dcpa_m, &options);
             assert_eq!(encounter.may_act, may_act, "{t_s}");
+        }
+    }
+
+    /// 80 m are too close if they are sure, and not if they may be 100.
+    #[test]
+    fn a_doubtful_prediction_is_no_reason_to_act() {
+        let options = CorrectedOptions::default();
+        for (cpa_sd_m, may_act) in [(0.0, true), (30.0, false)] {
+            let mut encounter = stand_on();
+            for beat in 0..20 {
+                let t_s = f64::from(beat);
+                encounter.watch(moment(t_s, 600.0 - 10.0 * t_s, cpa_sd_m), || 80.0, &options);
+            }
+            assert_eq!(encounter.may_act, may_act, "{cpa_sd_m}");
         }
     }
 

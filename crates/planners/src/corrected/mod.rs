@@ -9,6 +9,7 @@
 //! | turn to port (F3, F6, F16) | no port candidate for a ship to port, ahead or crossing | [`search`] |
 //! | one reference obstacle (F11, F12) | every candidate is checked against every target | [`search`] |
 //! | point without inertia (F19) | predicted turn with own ship's limits | [`path`] |
+//! | targets known perfectly | steady lines, margins that grow with the doubt | [`steady`] |
 //! | returns too early (F14) | only when the wish is clear of every target | [`planner`] |
 
 pub mod encounter;
@@ -17,6 +18,7 @@ pub mod options;
 pub mod path;
 pub mod planner;
 pub mod search;
+pub mod steady;
 
 pub use options::CorrectedOptions;
 pub use planner::ZhuangCorrected;

@@ -33,6 +33,13 @@ pub struct CorrectedOptions {
     pub stand_on_dcpa_m: f64,
     /// ... that has lasted this long, seconds: the other ship's inaction must be apparent.
     pub stand_on_patience_s: f64,
+    /// Planned distances grow by this many standard deviations of the predicted distance ...
+    pub sigmas: f64,
+    /// ... but by no more than this, metres.
+    pub sigma_m_max: f64,
+    /// A target is watched for this long before she is classed, unless she is near, seconds: a
+    /// young track has hardly a course.
+    pub watch_s: f64,
     /// Share of own ship's turn rate and acceleration that the prediction trusts.
     pub trusted_share: f64,
     /// Time from an order to its first effect, seconds.
@@ -57,6 +64,9 @@ impl Default for CorrectedOptions {
             overtaken_time_s: 68.0,
             stand_on_dcpa_m: 95.0,
             stand_on_patience_s: 6.0,
+            sigmas: 1.0,
+            sigma_m_max: 80.0,
+            watch_s: 15.0,
             trusted_share: 0.6,
             lag_s: 3.0,
             radius: RadiusKind::Mission,
@@ -78,6 +88,17 @@ impl CorrectedOptions {
         within("doubt_deg", self.doubt_deg, 0.0, 10.0)?;
         within("alteration_deg", self.alteration_deg, 10.0, 90.0)?;
         within("margin_m", self.margin_m, 0.0, 1e5)?;
+        within("risk_range_m", self.risk_range_m, 0.0, 1e6)?;
+        within("risk_tcpa_s", self.risk_tcpa_s, 0.0, 1e6)?;
+        within("stand_on_range_m", self.stand_on_range_m, 0.0, 1e6)?;
+        within("overtaken_range_m", self.overtaken_range_m, 0.0, 1e6)?;
+        within("overtaken_time_s", self.overtaken_time_s, 0.0, 1e6)?;
+        within("stand_on_dcpa_m", self.stand_on_dcpa_m, 0.0, 1e6)?;
+        within("stand_on_patience_s", self.stand_on_patience_s, 0.0, 1e6)?;
+        within("sigmas", self.sigmas, 0.0, 10.0)?;
+        within("sigma_m_max", self.sigma_m_max, 0.0, 1e5)?;
+        within("watch_s", self.watch_s, 0.0, 1e6)?;
+        within("unknown_length_m", self.unknown_length_m, 0.0, 1e4)?;
         within("trusted_share", self.trusted_share, 0.05, 1.0)?;
         within("lag_s", self.lag_s, 0.0, 60.0)
     }

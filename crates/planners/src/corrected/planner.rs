@@ -1,10 +1,11 @@
 //! The corrected planner's beat.
 
-use super::encounter::{Encounter, Moment};
+use super::encounter::{Encounter, LastSeen, Moment};
 use super::gap::Gap;
 use super::options::CorrectedOptions;
 use super::path::{Agility, Path, Trial};
 use super::search::{self, Reference, Target};
+use super::steady::{Lookout, Seen};
 use crate::clearance::Clearance;
 use crate::guidance::{Guidance, Wish};
 use geom::{HullOutline, Vec2, angle, cpa, units::deg, wrap};
@@ -23,6 +24,13 @@ const LEG_CHANGE_RAD: f64 = deg(75.0);
 /// The closest point must lie this far back before an encounter is over, seconds: between hulls it
 /// comes later than between reference points, and a return to the route moves it again.
 const PAST_S: f64 = 10.0;
+/// A target whose track is lost is kept for this long, seconds: another track of hers may follow.
+const LOST_S: f64 = 20.0;
+/// A new track this near to where a lost target must be is hers, metres.
+const HAND_OVER_M: f64 = 100.0;
+/// A target nearer than this, in seconds to the closest point, is not watched any longer before she
+/// is classed.
+const URGENT_S: f64 = 60.0;
 /// An alteration counts as made this much below its size, radians.
 const MADE_WITHIN_RAD: f64 = deg(2.0);
 
@@ -32,6 +40,8 @@ pub struct ZhuangCorrected {
     options: CorrectedOptions,
     guidance: Guidance,
     fixed: Option<Fixed>,
+    lookout: Lookout,
+    seen: Vec<Seen>,
     encounters: Vec<Encounter>,
     targets: Vec<Target>,
     manoeuvre: Option<Manoeuvre>,
@@ -64,6 +74,8 @@ impl ZhuangCorrected {
             options,
             guidance: Guidance::default(),
             fixed: None,
+            lookout: Lookout::default(),
+            seen: Vec::new(),
             encounters: Vec::new(),
             targets: Vec::new(),
             manoeuvre: None,
@@ -74,46 +86,94 @@ impl ZhuangCorrected {
 
     /// Opens, watches and closes encounters, and lists the targets for the search.
     fn observe(&mut self, situation: &Situation<'_>, wish: Wish, fixed: Fixed) -> Vec<Alert> {
+        let (t_s, own) = (situation.t_s, &situation.own);
+        self.lookout.keep(situation.tracks);
+        let mut seen = std::mem::take(&mut self.seen);
+        seen.clear();
+        seen.extend(situation.tracks.iter().map(|track| self.lookout.see(t_s, track)));
+        self.hand_over(t_s, &seen);
         let mut alerts = Vec::new();
-        let own = &situation.own;
-        self.encounters.retain(|e| situation.tracks.iter().any(|track| track.id == e.id));
         self.targets.clear();
-        for track in situation.tracks {
-            let hulls_m = fixed.clearance.hulls_m(track);
-            let plan_m = fixed.clearance.radius_m(track) + self.options.margin_m;
-            let hulls = fixed.hulls.filter(|_| fixed.clearance.hulls_m(track) > 0.0);
-            let gap = Gap { own, track, hulls };
-            let now = Now::new(situation.t_s, wish, gap, hulls_m);
-            let known = self.encounters.iter().position(|e| e.id == track.id);
-            let encounter = match known {
-                Some(i)
-                    if now.opens && track.position_m.metric_distance(&own.position_m) > plan_m =>
-                {
-                    self.encounters.swap_remove(i);
-                    None
-                }
-                Some(i) => {
-                    self.encounters[i].watch(now.moment, &self.options);
-                    Some(self.encounters[i])
-                }
-                None if self.is_risk(&now, fixed) => {
-                    let encounter = Encounter::begin(own, track, &self.options);
-                    self.encounters.push(encounter);
-                    alerts.push(alert(&encounter));
-                    Some(encounter)
-                }
-                None => None,
-            };
-            self.targets.push(Target {
-                from_own_m: track.position_m - own.position_m,
-                velocity_mps: track.velocity_mps,
-                sog_mps: track.sog_mps,
-                cog_rad: track.cog_rad,
-                plan_m,
-                encounter,
-            });
+        for seen in &seen {
+            self.observe_one(t_s, own, seen, (wish, fixed), &mut alerts);
         }
+        // who is lost from sight sails on in the mind
+        for &encounter in &self.encounters {
+            let lost = seen.iter().all(|seen| seen.track.id != encounter.id);
+            if lost {
+                let place_m = encounter.last.place_m(t_s);
+                self.targets.push(target(own, place_m, &encounter.last, Some(encounter)));
+            }
+        }
+        self.seen = seen;
         alerts
+    }
+
+    /// Gives the encounter of a track that was lost to the track that has taken its place.
+    fn hand_over(&mut self, t_s: f64, seen: &[Seen]) {
+        let is_seen = |id: u32| seen.iter().any(|seen| seen.track.id == id);
+        for i in 0..self.encounters.len() {
+            if is_seen(self.encounters[i].id) {
+                continue;
+            }
+            let place_m = self.encounters[i].last.place_m(t_s);
+            let distance_m = |s: &Seen| s.track.position_m.metric_distance(&place_m);
+            let heir = seen
+                .iter()
+                .filter(|s| self.encounters.iter().all(|e| e.id != s.track.id))
+                .filter(|s| distance_m(s) < HAND_OVER_M)
+                .min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
+            if let Some(heir) = heir {
+                self.encounters[i].id = heir.track.id;
+            }
+        }
+        self.encounters.retain(|e| is_seen(e.id) || t_s - e.last.t_s <= LOST_S);
+    }
+
+    fn observe_one(
+        &mut self,
+        t_s: f64,
+        own: &OwnState,
+        seen: &Seen,
+        (wish, fixed): (Wish, Fixed),
+        alerts: &mut Vec<Alert>,
+    ) {
+        let track = &seen.track;
+        let hulls_m = fixed.clearance.hulls_m(track);
+        let hulls = fixed.hulls.filter(|_| hulls_m > 0.0);
+        let now = Now::new(t_s, wish, (own, seen), hulls_m);
+        let doubt_m = (self.options.sigmas * now.moment.cpa_sd_m).min(self.options.sigma_m_max);
+        let plan_m = fixed.clearance.radius_m(track) + self.options.margin_m + doubt_m;
+        let (position_m, velocity_mps) = (track.position_m, track.velocity_mps);
+        let last = LastSeen { t_s, position_m, velocity_mps, plan_m };
+        let known = self.encounters.iter().position(|e| e.id == track.id);
+        let encounter = match known {
+            Some(i) if now.opens && now.moment.range_m > plan_m => {
+                self.encounters.swap_remove(i);
+                None
+            }
+            Some(i) => {
+                let dcpa_m = || Gap { own, track, hulls }.least_m(now.tcpa_s);
+                self.encounters[i].watch(now.moment, dcpa_m, &self.options);
+                self.encounters[i].last = last;
+                Some(self.encounters[i])
+            }
+            None if self.is_risk(&now, fixed) && self.is_watched(seen, &now) => {
+                let encounter = Encounter::begin(own, seen, last, &self.options);
+                self.encounters.push(encounter);
+                alerts.push(alert(&encounter));
+                Some(encounter)
+            }
+            None => None,
+        };
+        self.targets.push(target(own, position_m, &last, encounter));
+    }
+
+    /// Long enough to be classed, or too near to wait.
+    fn is_watched(&self, seen: &Seen, now: &Now) -> bool {
+        seen.watched_s >= self.options.watch_s
+            || now.risk_tcpa_s <= URGENT_S
+            || now.moment.range_m <= self.options.stand_on_range_m
     }
 
     fn is_risk(&self, now: &Now, fixed: Fixed) -> bool {
@@ -208,6 +268,7 @@ impl Planner for ZhuangCorrected {
             safety_radius_m: mission.safety_radius_m,
             hulls: Some(HullOutline::centred(mission.own.length_m, mission.own.beam_m)),
         });
+        self.lookout.clear();
         self.encounters.clear();
         self.manoeuvre = None;
         self.events = PlannerEvents::default();
@@ -251,9 +312,24 @@ fn alert(encounter: &Encounter) -> Alert {
     Alert { track: encounter.id, rule, why }
 }
 
+/// A target for the search, at this place.
+fn target(own: &OwnState, place_m: Vec2, last: &LastSeen, encounter: Option<Encounter>) -> Target {
+    let sog_mps = last.velocity_mps.norm();
+    Target {
+        from_own_m: place_m - own.position_m,
+        velocity_mps: last.velocity_mps,
+        sog_mps,
+        cog_rad: if sog_mps > 0.0 { angle::direction(last.velocity_mps) } else { 0.0 },
+        plan_m: last.plan_m,
+        encounter,
+    }
+}
+
 /// One target at this moment, at own ship's present velocity and at the wished one.
 struct Now {
     moment: Moment,
+    /// Time to the closest point at the present velocity, seconds; 0 once it lies behind.
+    tcpa_s: f64,
     /// At both velocities the closest point lies well behind.
     opens: bool,
     /// The nearer of the two predictions that lie ahead, metres as the mission measures.
@@ -263,8 +339,8 @@ struct Now {
 }
 
 impl Now {
-    fn new(t_s: f64, wish: Wish, gap: Gap<'_>, hulls_m: f64) -> Self {
-        let Gap { own, track, .. } = gap;
+    fn new(t_s: f64, wish: Wish, (own, seen): (&OwnState, &Seen), hulls_m: f64) -> Self {
+        let track = &seen.track;
         let los_m = track.position_m - own.position_m;
         let relative = |own_mps: Vec2| track.velocity_mps - own_mps;
         let present = cpa(los_m, relative(own.velocity_mps));
@@ -281,12 +357,13 @@ impl Now {
         let moment = Moment {
             t_s,
             range_m: los_m.norm(),
-            dcpa_m: gap.least_m(present.tcpa_s.unwrap_or(0.0).max(0.0)),
             closing_mps,
             beta_rad: wrap(angle::direction(los_m) - own.psi_rad),
+            cpa_sd_m: seen.cpa_sd_m(if risk.1.is_finite() { risk.1 } else { 0.0 }),
         };
         Self {
             moment,
+            tcpa_s: present.tcpa_s.unwrap_or(0.0).max(0.0),
             opens: is_past(present.tcpa_s) && is_past(wished.tcpa_s),
             risk_dcpa_m: risk.0 - hulls_m,
             risk_tcpa_s: risk.1,

@@ -18,7 +18,7 @@
 //! | (19)-(23) | comparisons of raw angles | `as-printed` keeps them; `consistent` wraps |
 //! | Step 6 | `i = i + 1; if i < obs_num`, counted from 1 | every obstacle is examined |
 //! | Step 2 | i is never set back | every pass begins with the first obstacle |
-//! | Step 8 | "largest change" | largest |change of heading| |
+//! | Step 8 | "largest change" | largest |change of heading|; option `reference` |
 //! | Step 9 | no bound on the loop 9 -> 2 | 50 passes; reaching that is a counted event |
 //! | "obstacles are ellipses" | against the disc of section III | the disc |
 
@@ -29,5 +29,5 @@ pub mod options;
 pub mod planner;
 pub mod strategy;
 
-pub use options::{Equations, Memory, Resume, ZhuangOptions};
+pub use options::{Equations, Memory, Reference, Resume, ZhuangOptions};
 pub use planner::Zhuang;

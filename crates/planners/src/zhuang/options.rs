@@ -43,27 +43,41 @@ pub enum Memory {
     Latched,
 }
 
+/// Which obstacle's change is carried out in a pass (Step 8).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reference {
+    /// The largest change of heading: the paper.
+    LargestChange,
+    /// The least time to the closest point: a repair, for what Step 8 overlooks.
+    MostUrgent,
+}
+
 /// Every option of the seed planner.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ZhuangOptions {
     /// Reading of equations (2) to (4) and (17) to (24).
     pub equations: Equations,
-    /// Reading of the return to the goal.
+    /// Step 1 and Step 10, "headed for the goal": from which velocity Steps 3 to 9 begin.
     pub resume: Resume,
-    /// What is remembered of a target between passes and beats.
+    /// The class that chooses between (19) to (23), and the side that they choose: for how long.
     pub memory: Memory,
-    /// Half-angle of the head-on sector, degrees; the paper gives none.
+    /// Step 8: the reference obstacle.
+    pub reference: Reference,
+    /// Half-angle of the head-on sector of Fig. 1, inside which (21) rules; degrees. The paper
+    /// gives none.
     pub head_on_half_angle_deg: f64,
-    /// What R is in (2).
+    /// What R is in (2), the radius of the disc around B.
     pub radius: RadiusKind,
-    /// R is this many times what `radius` says.
+    /// R in (2) is this many times what `radius` says.
     pub radius_factor: f64,
     /// Length, metres, of a target that does not report one (`radius = hull`).
     pub unknown_length_m: f64,
-    /// Plans on every so many calls and repeats the order between: the paper's beat in calls.
+    /// The beat of Steps 1 to 10 in calls: plans on every so many and repeats the order between.
     pub beat_calls: u32,
-    /// Largest number of passes of the loop 9 -> 2 in one beat.
+    /// Largest number of passes of the loop from Step 9 to Step 2 in one beat; reaching it is
+    /// counted (`inner_loop_cap` of the planner's events).
     pub inner_loop_cap: u32,
 }
 
@@ -73,6 +87,7 @@ impl Default for ZhuangOptions {
             equations: Equations::Consistent,
             resume: Resume::Hold,
             memory: Memory::None,
+            reference: Reference::LargestChange,
             head_on_half_angle_deg: 10.0,
             radius: RadiusKind::Mission,
             radius_factor: 1.0,
@@ -97,6 +112,11 @@ impl ZhuangOptions {
     /// The reading that resumes the goal velocity unchecked.
     pub fn when_safe() -> Self {
         Self { resume: Resume::WhenSafe, ..Self::default() }
+    }
+
+    /// The reading whose class holds for the beat.
+    pub fn class_in_beat() -> Self {
+        Self { memory: Memory::ClassInBeat, ..Self::default() }
     }
 
     /// The smallest repair: class and side are kept.

@@ -7,7 +7,7 @@
 use super::class::sector;
 use super::equations;
 use super::memory::{Latch, TargetMemory};
-use super::options::{Equations, Memory, Resume, ZhuangOptions};
+use super::options::{Equations, Memory, Reference, Resume, ZhuangOptions};
 use super::strategy::{self, PrintedAngles};
 use crate::clearance::Clearance;
 use crate::guidance::Guidance;
@@ -216,20 +216,19 @@ impl Zhuang {
     fn avoid(&mut self, obstacles: &mut [Obstacle], mut a: Velocity) -> Velocity {
         let start = a;
         for _ in 0..self.options.inner_loop_cap {
-            let mut reference: Option<equations::PolarChange> = None;
+            let mut reference: Option<(f64, equations::PolarChange)> = None;
             for o in obstacles.iter_mut() {
                 let look = self.look(o, a);
                 if !look.flag {
                     continue;
                 }
                 let change = self.change(o, look, a, start);
-                // Step 8; NaN counts as the largest, or it would pass as safe
-                let larger = |than: f64| change.0.abs().total_cmp(&than.abs()).is_gt();
-                if reference.is_none_or(|(d_alpha, _)| larger(d_alpha)) {
-                    reference = Some(change);
+                let rank = self.rank(o, look, change);
+                if reference.is_none_or(|(highest, _)| rank.total_cmp(&highest).is_gt()) {
+                    reference = Some((rank, change));
                 }
             }
-            let Some((d_alpha, d_va)) = reference else {
+            let Some((_, (d_alpha, d_va))) = reference else {
                 return a;
             };
             self.events.passes += 1;
@@ -237,6 +236,17 @@ impl Zhuang {
         }
         self.noted.capped = true;
         a
+    }
+
+    /// Step 8: the obstacle of the highest rank is the reference of the pass.
+    fn rank(&self, o: &Obstacle, look: Look, change: equations::PolarChange) -> f64 {
+        match self.options.reference {
+            // NaN counts as the largest, or it would pass as safe
+            Reference::LargestChange => change.0.abs(),
+            Reference::MostUrgent => {
+                -equations::tcpa(o.d, look.v_s, math::length(look.v_s, look.v_theta))
+            }
+        }
     }
 
     /// Steps 3 and 4.

@@ -6,6 +6,7 @@ mod conformance;
 mod controls;
 mod figures;
 mod findings;
+mod isolated;
 mod memory;
 mod random;
 mod rivals;

@@ -1,8 +1,9 @@
 //! Several planners on the same encounters: the tables of `docs/measured/compare.md`, and the
 //! smallest distances of named scenes.
 
+use crate::line;
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 type Cell = fn(&Value) -> String;
 
@@ -45,28 +46,28 @@ fn summaries(dir: &Path, timing: &Value) -> anyhow::Result<Vec<Value>> {
 }
 
 /// One table for each number, one line for each stratum, one column for each planner.
-pub(crate) fn print(dirs: &[String]) -> anyhow::Result<()> {
-    for dir in dirs.iter().map(Path::new) {
+pub(crate) fn print(out: &mut String, dirs: &[PathBuf]) -> anyhow::Result<()> {
+    for dir in dirs {
         let timing = json(&dir.join("timing.json"))?;
         let all = summaries(dir, &timing)?;
         let names: Vec<String> = all.iter().map(|s| format!("`{}`", text(&s["planner"]))).collect();
         for (title, cell) in TABLES {
-            println!("\n## {title}\n\n| stratum | {} |", names.join(" | "));
-            println!("|---|{}", "---|".repeat(names.len()));
+            line!(out, "\n## {title}\n\n| stratum | {} |", names.join(" | "));
+            line!(out, "|---|{}", "---|".repeat(names.len()));
             let strata = all.first().map_or(0, |s| s["strata"].as_array().map_or(0, Vec::len));
             for i in 0..strata {
                 let cells: Vec<String> = all.iter().map(|s| cell(&s["strata"][i])).collect();
-                println!("| {} | {} |", text(&all[0]["strata"][i]["name"]), cells.join(" | "));
+                line!(out, "| {} | {} |", text(&all[0]["strata"][i]["name"]), cells.join(" | "));
             }
         }
-        println!("\n## What avoiding costs\n");
-        println!("| planner | extra distance, m | extra time, s | us per call |");
-        println!("|---|---|---|---|");
+        line!(out, "\n## What avoiding costs\n");
+        line!(out, "| planner | extra distance, m | extra time, s | us per call |");
+        line!(out, "|---|---|---|---|");
         for cost in timing["planners"].as_array().into_iter().flatten() {
             let of = |key: &str| cost[key].as_f64().unwrap_or(f64::NAN);
             let (distance_m, time_s) = (of("extra_distance_m_mean"), of("extra_time_s_mean"));
             let (name, us) = (text(&cost["planner"]), of("planning_us_per_call"));
-            println!("| `{name}` | {distance_m:.0} | {time_s:.1} | {us:.2} |");
+            line!(out, "| `{name}` | {distance_m:.0} | {time_s:.1} | {us:.2} |");
         }
     }
     Ok(())
@@ -77,7 +78,7 @@ fn text(value: &Value) -> &str {
 }
 
 /// Smallest distance between hulls, or how the run ended: one line for each scene.
-pub(crate) fn print_scenes(dirs: &[String]) -> anyhow::Result<()> {
+pub(crate) fn print_scenes(out: &mut String, dirs: &[PathBuf]) -> anyhow::Result<()> {
     let mut lines: Vec<(String, Vec<String>)> = Vec::new();
     for dir in dirs {
         let mut i = 0;
@@ -96,7 +97,7 @@ pub(crate) fn print_scenes(dirs: &[String]) -> anyhow::Result<()> {
     }
     let names: Vec<String> =
         dirs.iter().map(|dir| crate::planner(dir)).collect::<anyhow::Result<_>>()?;
-    println!("| scene | {} |\n|---|{}", names.join(" | "), "---|".repeat(names.len()));
-    lines.iter().for_each(|(scene, cells)| println!("| {scene} | {} |", cells.join(" | ")));
+    line!(out, "| scene | {} |\n|---|{}", names.join(" | "), "---|".repeat(names.len()));
+    lines.iter().for_each(|(scene, cells)| line!(out, "| {scene} | {} |", cells.join(" | ")));
     Ok(())
 }

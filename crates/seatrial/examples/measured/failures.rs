@@ -1,8 +1,10 @@
 //! What the checks and the events of a result found, by class of the encounter.
 
-use crate::{each_row, planner, rate};
-use record::{Check, PlannerEvents, RunRow, Status};
+use crate::{each_row, line, planner, rate};
+use record::{Check, RunRow, Status};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
+use summary::PlannerEvent;
 
 /// Runs of one class in which a check or an event was looked at.
 #[derive(Default)]
@@ -40,33 +42,23 @@ impl Cluster {
     }
 }
 
-type Event = (&'static str, fn(&PlannerEvents) -> u32);
-
-const EVENTS: [Event; 5] = [
-    ("event: inner loop at its cap", |e| e.inner_loop_cap),
-    ("event: a limit cut the order", |e| e.limited),
-    ("event: inside the circle called safe", |e| e.inside_called_safe),
-    ("event: class changed within the encounter", |e| e.class_changes),
-    ("event: receding target taken for a danger", |e| e.receding_flagged),
-];
-
-pub(crate) fn print(dirs: &[String]) -> anyhow::Result<()> {
+pub(crate) fn print(out: &mut String, dirs: &[PathBuf]) -> anyhow::Result<()> {
     for dir in dirs {
         let mut clusters: BTreeMap<(String, String), Cluster> = BTreeMap::new();
         each_row(dir, |row| add(row, &mut clusters))?;
-        println!("\n`{}`\n", planner(dir)?);
+        line!(out, "\n`{}`\n", planner(dir)?);
         let few = |cluster: &Cluster| (1..=LISTED).contains(&cluster.first.len());
-        println!("| check or event | class | failed | warned | looked at | % [95 %] | worst |");
-        println!("|---|---|---|---|---|---|---|");
+        line!(out, "| check or event | class | failed | warned | looked at | % [95 %] | worst |");
+        line!(out, "|---|---|---|---|---|---|---|");
         for ((what, class), cluster) in &clusters {
             let Some((_, id)) = &cluster.worst else { continue };
             let Cluster { fail, warn, open, looked_at, .. } = cluster;
             let share = rate(*fail, *open, *looked_at);
-            println!("| {what} | {class} | {fail} | {warn} | {looked_at} | {share} | `{id}` |");
+            line!(out, "| {what} | {class} | {fail} | {warn} | {looked_at} | {share} | `{id}` |");
         }
         for ((what, class), cluster) in clusters.iter().filter(|((_, class), _)| class != "all") {
             if few(cluster) {
-                println!("\n{what}, {class}: {}", cluster.first.join(", "));
+                line!(out, "\n{what}, {class}: {}", cluster.first.join(", "));
             }
         }
     }
@@ -90,8 +82,8 @@ fn add(row: &RunRow, clusters: &mut BTreeMap<(String, String), Cluster>) {
         let cell = row.check(check);
         put(check.title(), cell.status, cell.margin.unwrap_or(0.0));
     }
-    for (what, count) in EVENTS {
-        let count = count(&row.events);
-        put(what, failed(count > 0), -f64::from(count));
+    for event in PlannerEvent::ALL {
+        let beats = event.beats(&row.events);
+        put(&format!("event: {}", event.title()), failed(beats > 0), -f64::from(beats));
     }
 }

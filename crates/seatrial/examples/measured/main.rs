@@ -2,46 +2,102 @@
 //! hand.
 //!
 //! ```text
-//! cargo run --release -p seatrial --example measured -- failures DIR...
-//! cargo run --release -p seatrial --example measured -- random DIR...
-//! cargo run --release -p seatrial --example measured -- compare DIR
-//! cargo run --release -p seatrial --example measured -- scenes DIR...
+//! cargo run -p seatrial --example measured -- into RESULTS DOCUMENT...
+//! cargo run -p seatrial --example measured -- print RESULTS TABLE [DIR...]
 //! ```
 //!
-//! `failures` lists what checks and events found in a result, by class of the encounter, with exact
-//! bounds and the worst encounter. `random` is the table of the paper's own world: distances,
-//! first alterations, the inner loop's cap and the goal. `compare` sets the planners of a
-//! comparison side by side; `scenes` the smallest distances of named scenes.
+//! A document has marked blocks, `<!-- measured TABLE DIR... -->` up to `<!-- /measured -->`; `into`
+//! puts the tables between the marks. Folders are relative to RESULTS, which the commands at the head
+//! of `docs/seed-planner.md` fill. The tables:
+//!
+//! * `findings`: the seed planner's faults, each with the clusters of the reports that show it;
+//! * `failures DIR...`: what checks and events found in a result, by class, with exact bounds and the
+//!   worst encounter;
+//! * `random DIR...`: the paper's own world: distances, first alterations, the inner loop, the goal;
+//! * `compare DIR`: the planners of a comparison side by side;
+//! * `scenes DIR...`: the smallest distances of named scenes.
 
 mod compare;
 mod failures;
+mod findings;
 mod random;
 
+use anyhow::{Context, bail};
 use record::RunRow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Adds a line to a table.
+macro_rules! line {
+    ($out:expr, $($arg:tt)*) => {{
+        $out.push_str(&format!($($arg)*));
+        $out.push('\n');
+    }};
+}
+pub(crate) use line;
+
+const OPENS: &str = "<!-- measured ";
+const CLOSES: &str = "<!-- /measured -->";
 
 fn main() -> anyhow::Result<()> {
     let args: Vec<String> = std::env::args().skip(1).collect();
-    match args.split_first() {
-        Some((what, dirs)) if what == "failures" && !dirs.is_empty() => failures::print(dirs),
-        Some((what, dirs)) if what == "random" && !dirs.is_empty() => random::print(dirs),
-        Some((what, dirs)) if what == "compare" && !dirs.is_empty() => compare::print(dirs),
-        Some((what, dirs)) if what == "scenes" && !dirs.is_empty() => compare::print_scenes(dirs),
-        _ => anyhow::bail!("usage: measured failures|random|compare|scenes DIR..."),
+    match &args[..] {
+        [what, results, documents @ ..] if what == "into" && !documents.is_empty() => {
+            documents.iter().try_for_each(|document| into(Path::new(results), document))
+        }
+        [what, results, words @ ..] if what == "print" => {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            print!("{}", table_of(Path::new(results), &words)?);
+            Ok(())
+        }
+        _ => bail!("usage: measured into RESULTS DOCUMENT... | print RESULTS TABLE [DIR...]"),
     }
 }
 
+/// Puts every table of a document between its marks.
+fn into(results: &Path, document: &str) -> anyhow::Result<()> {
+    let text = std::fs::read_to_string(document).with_context(|| format!("reading {document}"))?;
+    let mut written = String::new();
+    let mut rest = text.as_str();
+    while let Some(at) = rest.find(OPENS) {
+        let mark_ends = at + rest[at..].find("-->").context("a mark without its end")? + 3;
+        let words: Vec<&str> = rest[at + OPENS.len()..mark_ends - 3].split_whitespace().collect();
+        let closes =
+            rest.find(CLOSES).with_context(|| format!("{document}: {CLOSES} is missing"))?;
+        written.push_str(&rest[..mark_ends]);
+        let table = table_of(results, &words).with_context(|| format!("{document}: {words:?}"))?;
+        written.push_str(&format!("\n\n{}\n\n{CLOSES}", table.trim()));
+        rest = &rest[closes + CLOSES.len()..];
+    }
+    written.push_str(rest);
+    std::fs::write(document, written).with_context(|| format!("writing {document}"))
+}
+
+fn table_of(results: &Path, words: &[&str]) -> anyhow::Result<String> {
+    let Some((what, dirs)) = words.split_first() else { bail!("a table without a name") };
+    let dirs: Vec<PathBuf> = dirs.iter().map(|dir| results.join(dir)).collect();
+    let mut out = String::new();
+    match *what {
+        "findings" => findings::print(&mut out, results)?,
+        "failures" => failures::print(&mut out, &dirs)?,
+        "random" => random::print(&mut out, &dirs)?,
+        "compare" => compare::print(&mut out, &dirs)?,
+        "scenes" => compare::print_scenes(&mut out, &dirs)?,
+        other => bail!("there is no table `{other}`"),
+    }
+    Ok(out)
+}
+
 /// The rows of a result, one by one.
-fn each_row(dir: &str, mut each: impl FnMut(&RunRow)) -> anyhow::Result<()> {
-    for row in table::read_rows(Path::new(dir).join("runs.parquet"))? {
+fn each_row(dir: &Path, mut each: impl FnMut(&RunRow)) -> anyhow::Result<()> {
+    for row in table::read_rows(dir.join("runs.parquet"))? {
         each(&row?);
     }
     Ok(())
 }
 
 /// The name of the planner of a result.
-fn planner(dir: &str) -> anyhow::Result<String> {
-    let text = std::fs::read_to_string(Path::new(dir).join("summary.json"))?;
+fn planner(dir: &Path) -> anyhow::Result<String> {
+    let text = std::fs::read_to_string(dir.join("summary.json"))?;
     let summary: serde_json::Value = serde_json::from_str(&text)?;
     Ok(summary["planner"].as_str().unwrap_or("?").to_owned())
 }

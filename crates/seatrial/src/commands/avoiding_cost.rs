@@ -1,14 +1,15 @@
 //! What avoiding costs: time of a planner's call, distance and time of the way sailed.
 //!
 //! A comparison runs the first encounters of each stratum again, on one thread and with a clock
-//! around every call. Wall-clock numbers are printed and go to `timing.json` alone: reports are the
-//! same bytes wherever they are made.
+//! around every call. The wall clock's number goes to `timing.json` and to one line of the
+//! comparison, which says what it is; reports are the same bytes wherever they are made.
 
 use crate::files;
 use crate::say::say;
 use campaign::worker::{Run, Shop, Worker};
 use campaign::{Error, Plan};
 use planner_api::{Command, Mission, Planner, PlannerEntry, PlannerEvents, Registry, Situation};
+use report::{Cost, Extra};
 use serde::Serialize;
 use std::path::Path;
 use std::sync::Arc;
@@ -16,35 +17,31 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 /// Encounters of each stratum that are run again.
-const SAMPLE: u64 = 20;
+const SAMPLE: u64 = 50;
 
-/// One planner's line.
-#[derive(Debug, Serialize)]
-pub(super) struct Cost {
+/// One planner's cost.
+#[derive(Debug)]
+pub(super) struct PlannerCost {
     pub(super) planner: String,
-    encounters: u64,
+    pub(super) cost: Cost,
     calls: u64,
-    planning_us_per_call: f64,
-    extra_distance_m_mean: f64,
-    extra_time_s_mean: f64,
-}
-
-impl Cost {
-    /// What of it does not depend on the clock.
-    pub(super) fn extra(&self) -> report::Extra {
-        report::Extra {
-            encounters: self.encounters,
-            distance_m: self.extra_distance_m_mean,
-            time_s: self.extra_time_s_mean,
-        }
-    }
 }
 
 #[derive(Serialize)]
 struct Timing<'a> {
     schema: u32,
     threads: u32,
-    planners: &'a [Cost],
+    planners: Vec<PlannerTiming<'a>>,
+}
+
+#[derive(Serialize)]
+struct PlannerTiming<'a> {
+    planner: &'a str,
+    encounters: u64,
+    calls: u64,
+    planning_us_per_call: f64,
+    extra_distance_m_mean: f64,
+    extra_time_s_mean: f64,
 }
 
 /// Measures the plans (of planners that do not take their process with them), writes `timing.json`
@@ -54,72 +51,87 @@ pub(super) fn measure(
     registry: Registry,
     out: &Path,
     quiet: bool,
-) -> Result<Vec<Cost>, Error> {
+) -> Result<Vec<PlannerCost>, Error> {
     let registry = Arc::new(registry);
-    let costs: Vec<Cost> =
+    let costs: Vec<PlannerCost> =
         plans.iter().map(|plan| cost(plan, &registry)).collect::<Result<_, Error>>()?;
-    let timing = Timing { schema: 1, threads: 1, planners: &costs };
+    let planners = costs.iter().map(|c| PlannerTiming {
+        planner: &c.planner,
+        encounters: c.cost.whole.encounters,
+        calls: c.calls,
+        planning_us_per_call: c.cost.planning_us_per_call,
+        extra_distance_m_mean: c.cost.whole.distance_m,
+        extra_time_s_mean: c.cost.whole.time_s,
+    });
+    let timing = Timing { schema: 1, threads: 1, planners: planners.collect() };
     let mut text = serde_json::to_string_pretty(&timing)
         .map_err(|e| Error::Fault(format!("failed to write timing.json: {e}")))?;
     text.push('\n');
     files::write(&out.join("timing.json"), text.as_bytes())?;
     if !quiet {
         say!("{:20} {:>12} {:>18} {:>14}", "", "us per call", "extra distance, m", "time, s");
-        for cost in &costs {
-            say!(
-                "{:20} {:>12.2} {:>18.0} {:>14.1}",
-                cost.planner,
-                cost.planning_us_per_call,
-                cost.extra_distance_m_mean,
-                cost.extra_time_s_mean
-            );
+        for PlannerCost { planner, cost, .. } in &costs {
+            let Extra { distance_m, time_s, .. } = cost.whole;
+            let us = cost.planning_us_per_call;
+            say!("{planner:20} {us:>12.2} {distance_m:>18.0} {time_s:>14.1}");
         }
     }
     Ok(costs)
 }
 
-fn cost(plan: &Plan, registry: &Arc<Registry>) -> Result<Cost, Error> {
+fn cost(plan: &Plan, registry: &Arc<Registry>) -> Result<PlannerCost, Error> {
     let clock = Arc::new(Clock::default());
     let clocked = Registry::new().with(clocked(plan, registry, &clock)?);
     let shop = Shop::new(plan, &clocked)?;
     let mut worker = Worker::new(&shop)?;
-    let beat = AtomicU64::new(0);
-    let (mut encounters, mut distance_m, mut time_s) = (0, 0.0, 0.0);
-    for stratum in 0..plan.strata.len() as u32 {
+    let mut whole = Extra::default();
+    let mut strata = Vec::new();
+    for (stratum, name) in (0..).zip(&plan.strata) {
+        let mut extra = Extra::default();
         for j in 0..SAMPLE.min(plan.encounters_per_stratum) {
-            let run = worker.run(stratum, j, &beat)?;
+            let run = worker.run(stratum, j, &AtomicU64::new(0))?;
             if let (Some(extra_m), false) = (run.row.extra_distance_m, run.row.unknown) {
-                encounters += 1;
-                distance_m += extra_m;
-                time_s += extra_time_s(&run);
+                add(&mut extra, extra_m, extra_time_s(&run));
+                add(&mut whole, extra_m, extra_time_s(&run));
             }
         }
+        strata.push((name.to_string(), mean(extra)));
     }
     let calls = clock.calls.load(Ordering::Relaxed);
     let spent_us = clock.spent_ns.load(Ordering::Relaxed) as f64 / 1000.0;
-    let runs = encounters.max(1) as f64;
-    Ok(Cost {
-        planner: plan.planner.name.clone(),
-        encounters,
-        calls,
-        planning_us_per_call: spent_us / calls.max(1) as f64,
-        extra_distance_m_mean: distance_m / runs,
-        extra_time_s_mean: time_s / runs,
-    })
+    let planning_us_per_call = spent_us / calls.max(1) as f64;
+    let cost = Cost { planning_us_per_call, whole: mean(whole), strata };
+    Ok(PlannerCost { planner: plan.planner.name.clone(), cost, calls })
 }
 
-/// Time of the run and of the rest of the way at planned speed, less the whole way at planned
-/// speed, seconds.
+/// Adds a run to a sum.
+fn add(sum: &mut Extra, distance_m: f64, time_s: f64) {
+    sum.encounters += 1;
+    sum.distance_m += distance_m;
+    sum.time_s += time_s;
+}
+
+fn mean(sum: Extra) -> Extra {
+    let n = sum.encounters.max(1) as f64;
+    Extra { distance_m: sum.distance_m / n, time_s: sum.time_s / n, ..sum }
+}
+
+/// Time to the passage of the goal, and from there or from the end of the run to it at planned
+/// speed, less the whole way at planned speed, seconds. The goal is passed where own ship is nearest
+/// to it.
 fn extra_time_s(run: &Run) -> f64 {
     let (own, trace) = (&run.trace.own, &run.trace);
     let mut planned_m = 0.0;
-    let mut from_m = run.encounter.own.start.position_m;
+    let mut goal_m = run.encounter.own.start.position_m;
     for waypoint in &run.encounter.own.route {
-        planned_m += (waypoint.position_m - from_m).norm();
-        from_m = waypoint.position_m;
+        planned_m += (waypoint.position_m - goal_m).norm();
+        goal_m = waypoint.position_m;
     }
-    let to_go_m = (from_m - own.position_m(own.len() - 1)).norm();
-    trace.end_s + (to_go_m - planned_m) / trace.cruise_mps
+    let to_go_m = |k: usize| (goal_m - own.position_m(k)).norm();
+    let last = own.len() - 1;
+    let nearest = (0..=last).min_by(|&a, &b| to_go_m(a).total_cmp(&to_go_m(b))).unwrap_or(last);
+    let at_s = if nearest == last { trace.end_s } else { nearest as f64 * trace.sample_s };
+    at_s + (to_go_m(nearest) - planned_m) / trace.cruise_mps
 }
 
 #[derive(Debug, Default)]

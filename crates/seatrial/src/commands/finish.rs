@@ -1,6 +1,6 @@
 //! From parts to files: the table, the summary, the report, the manifest.
 
-use super::avoiding_cost::Cost;
+use super::avoiding_cost::PlannerCost;
 use crate::rendering::{Rendering, card};
 use crate::say::{say, say_text};
 use crate::timing::Stopwatch;
@@ -109,7 +109,7 @@ pub(super) fn read_back(plan: &Plan, folder: &Folder) -> Result<PlannerResult, E
 pub(super) fn comparison(
     out: &Path,
     results: &[PlannerResult],
-    costs: &[Cost],
+    costs: &[PlannerCost],
     quiet: bool,
 ) -> Result<(), Error> {
     let columns: Vec<Compared<'_>> = results
@@ -119,7 +119,7 @@ pub(super) fn comparison(
             summary: &r.summary,
             tallies: &r.tallies,
             link: &r.link,
-            extra: costs.iter().find(|cost| cost.planner == r.card.planner).map(Cost::extra),
+            cost: costs.iter().find(|c| c.planner == r.card.planner).map(|c| &c.cost),
         })
         .collect();
     report::write_comparison(out, &columns).map_err(|e| Error::Fault(format!("failed to {e}")))?;
