@@ -10,7 +10,16 @@ use planner_api::OwnState;
 
 /// A track so bad that its prediction is off by more than this must not keep a stand-on ship from
 /// acting, metres.
-const STAND_ON_DOUBT_M_MAX: f64 = 40.0;
+const STAND_ON_DOUBT_M_MAX: f64 = 60.0;
+/// ... where this many standard deviations count.
+const STAND_ON_SIGMAS: f64 = 2.0;
+/// A class that has not changed for this long is as sure as it will be, seconds.
+const SURE_AFTER_S: f64 = 30.0;
+/// A class that is not sure has to last for this long before own ship gives way by it, seconds.
+const LASTS_S: f64 = 6.0;
+
+/// ... as a share of the speed.
+const SURE_COURSE: f64 = 0.035;
 
 /// An encounter from first risk until past and clear.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +36,10 @@ pub struct Encounter {
     pub doubtful: bool,
     /// She was on own port side at first risk.
     pub was_to_port: bool,
+    /// The class will not be looked at again.
+    pub sure: bool,
+    /// Since when this has been the class, seconds.
+    pub since_s: f64,
     /// Own ship gives way, or stands on and has seen the other one do nothing (17(a)(ii)).
     pub may_act: bool,
     /// Stand-on: since when the prediction has been too close, seconds.
@@ -71,10 +84,15 @@ pub struct Moment {
 }
 
 impl Encounter {
-    /// A new one, with the class found from headings as they are now.
-    pub fn begin(own: &OwnState, seen: &Seen, last: LastSeen, options: &CorrectedOptions) -> Self {
+    /// A new one, with the class found from headings as they are now; `psi_rad` is the target's.
+    pub fn begin(
+        own: &OwnState,
+        seen: &Seen,
+        psi_rad: f64,
+        last: LastSeen,
+        options: &CorrectedOptions,
+    ) -> Self {
         let track = &seen.track;
-        let psi_rad = track.psi_rad.unwrap_or(track.cog_rad);
         let pose = Relative::new(own.position_m, own.psi_rad, track.position_m, psi_rad);
         let class = class_in_doubt(&pose, track.sog_mps, options);
         let may_act = !matches!(class, EncounterClass::CrossingPort | EncounterClass::Overtaken);
@@ -87,10 +105,38 @@ impl Encounter {
             beta_rad,
             doubtful,
             was_to_port: beta_rad < 0.0,
+            sure: is_sure(seen),
+            since_s: last.t_s,
             may_act,
             too_close_since_s: None,
             last,
         }
+    }
+
+    /// Looks at the class again until it is sure: the first seconds of a track say little of a
+    /// course, and a bearing that stays says no less a minute later.
+    pub fn class_again(
+        &mut self,
+        own: &OwnState,
+        seen: &Seen,
+        psi_rad: f64,
+        options: &CorrectedOptions,
+    ) {
+        if self.sure {
+            return;
+        }
+        let anew = Self::begin(own, seen, psi_rad, self.last, options);
+        if anew.class == self.class {
+            self.sure = anew.sure || self.last.t_s - self.since_s >= SURE_AFTER_S;
+            return;
+        }
+        let course_rad = self.course_rad;
+        *self = Self { course_rad, since_s: self.last.t_s, ..anew };
+    }
+
+    /// Own ship gives way or may act, and by a class that has lasted.
+    pub fn asks_to_act(&self) -> bool {
+        self.may_act && (self.sure || self.last.t_s - self.since_s >= LASTS_S)
     }
 
     /// Lets a stand-on ship act once the other one has plainly done nothing. `dcpa_m` is the
@@ -112,7 +158,7 @@ impl Encounter {
             options.stand_on_range_m
         };
         // a pass that may as well be wide enough is left to the other ship
-        let doubt_m = (options.sigmas * moment.cpa_sd_m).min(STAND_ON_DOUBT_M_MAX);
+        let doubt_m = (STAND_ON_SIGMAS * moment.cpa_sd_m).min(STAND_ON_DOUBT_M_MAX);
         let too_close = moment.range_m <= limit_m
             && moment.closing_mps > 0.0
             && dcpa_m() + doubt_m < options.stand_on_dcpa_m;
@@ -154,6 +200,13 @@ impl Encounter {
     }
 }
 
+/// Whether the target's heading is known well enough to stop looking: reported, or from a velocity
+/// that is good to two degrees.
+fn is_sure(seen: &Seen) -> bool {
+    let reported = seen.track.psi_rad.is_some();
+    reported || seen.velocity_sd_mps <= SURE_COURSE * seen.track.sog_mps
+}
+
 /// The class, with doubt resolved towards overtaking, head-on and giving way.
 fn class_in_doubt(
     pose: &Relative,
@@ -186,6 +239,8 @@ mod tests {
             beta_rad: -1.0,
             doubtful: false,
             was_to_port: true,
+            sure: true,
+            since_s: 0.0,
             may_act: false,
             too_close_since_s: None,
             last: LastSeen {

@@ -15,6 +15,7 @@
 pub mod encounter;
 pub mod gap;
 pub mod options;
+pub mod own_motion;
 pub mod path;
 pub mod planner;
 pub mod search;

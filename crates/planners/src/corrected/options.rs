@@ -66,7 +66,7 @@ impl Default for CorrectedOptions {
             stand_on_patience_s: 6.0,
             sigmas: 1.0,
             sigma_m_max: 80.0,
-            watch_s: 15.0,
+            watch_s: 25.0,
             trusted_share: 0.6,
             lag_s: 3.0,
             radius: RadiusKind::Mission,

@@ -3,11 +3,13 @@
 use super::encounter::{Encounter, LastSeen, Moment};
 use super::gap::Gap;
 use super::options::CorrectedOptions;
+use super::own_motion::OwnMotion;
 use super::path::{Agility, Path, Trial};
 use super::search::{self, Reference, Target};
 use super::steady::{Lookout, Seen};
 use crate::clearance::Clearance;
 use crate::guidance::{Guidance, Wish};
+use crate::zhuang::class::STATIC_SPEED_MPS;
 use geom::{HullOutline, Vec2, angle, cpa, units::deg, wrap};
 use planner_api::{Alert, Command, Mission, OwnState, Planner, PlannerEvents, Situation};
 
@@ -18,7 +20,9 @@ const TOLERATED_LOSS: f64 = 0.6;
 const WORTH_A_CHANGE_M: f64 = 10.0;
 /// A return to the route must clear the planned distance by this, metres, or it would be taken
 /// back a moment later.
-const RETURN_SPARE_M: f64 = 15.0;
+const RETURN_SPARE_M: f64 = 25.0;
+/// A second manoeuvre for the same encounters needs a lack of distance of this share of the margin.
+const AGAIN_SHARE: f64 = 0.5;
 /// A wish farther off the present course than this is the next leg of the route.
 const LEG_CHANGE_RAD: f64 = deg(75.0);
 /// The closest point must lie this far back before an encounter is over, seconds: between hulls it
@@ -31,6 +35,8 @@ const HAND_OVER_M: f64 = 100.0;
 /// A target nearer than this, in seconds to the closest point, is not watched any longer before she
 /// is classed.
 const URGENT_S: f64 = 60.0;
+/// A course is known when the velocity is uncertain by less than this share of the speed.
+const KNOWN_COURSE: f64 = 0.08;
 /// An alteration counts as made this much below its size, radians.
 const MADE_WITHIN_RAD: f64 = deg(2.0);
 
@@ -41,10 +47,14 @@ pub struct ZhuangCorrected {
     guidance: Guidance,
     fixed: Option<Fixed>,
     lookout: Lookout,
+    motion: OwnMotion,
+    ordered_mps: Option<Vec2>,
     seen: Vec<Seen>,
     encounters: Vec<Encounter>,
     targets: Vec<Target>,
     manoeuvre: Option<Manoeuvre>,
+    /// A manoeuvre for the present encounters has ended.
+    returned: bool,
     path: Path,
     events: PlannerEvents,
 }
@@ -55,6 +65,7 @@ struct Fixed {
     clearance: Clearance,
     agility: Agility,
     safety_radius_m: f64,
+    speed_mps_max: f64,
     hulls: Option<HullOutline>,
 }
 
@@ -75,18 +86,27 @@ impl ZhuangCorrected {
             guidance: Guidance::default(),
             fixed: None,
             lookout: Lookout::default(),
+            motion: OwnMotion::default(),
+            ordered_mps: None,
             seen: Vec::new(),
             encounters: Vec::new(),
             targets: Vec::new(),
             manoeuvre: None,
+            returned: false,
             path: Path::default(),
             events: PlannerEvents::default(),
         }
     }
 
     /// Opens, watches and closes encounters, and lists the targets for the search.
-    fn observe(&mut self, situation: &Situation<'_>, wish: Wish, fixed: Fixed) -> Vec<Alert> {
-        let (t_s, own) = (situation.t_s, &situation.own);
+    fn observe(
+        &mut self,
+        situation: &Situation<'_>,
+        own: &OwnState,
+        wish: Wish,
+        fixed: Fixed,
+    ) -> Vec<Alert> {
+        let t_s = situation.t_s;
         self.lookout.keep(situation.tracks);
         let mut seen = std::mem::take(&mut self.seen);
         seen.clear();
@@ -154,12 +174,17 @@ impl ZhuangCorrected {
             }
             Some(i) => {
                 let dcpa_m = || Gap { own, track, hulls }.least_m(now.tcpa_s);
+                if self.manoeuvre.is_none() {
+                    let psi_rad = self.heading_rad(seen);
+                    self.encounters[i].class_again(own, seen, psi_rad, &self.options);
+                }
                 self.encounters[i].watch(now.moment, dcpa_m, &self.options);
                 self.encounters[i].last = last;
                 Some(self.encounters[i])
             }
             None if self.is_risk(&now, fixed) && self.is_watched(seen, &now) => {
-                let encounter = Encounter::begin(own, seen, last, &self.options);
+                let psi_rad = self.heading_rad(seen);
+                let encounter = Encounter::begin(own, seen, psi_rad, last, &self.options);
                 self.encounters.push(encounter);
                 alerts.push(alert(&encounter));
                 Some(encounter)
@@ -169,9 +194,20 @@ impl ZhuangCorrected {
         self.targets.push(target(own, position_m, &last, encounter));
     }
 
-    /// Long enough to be classed, or too near to wait.
+    /// A target's heading: as she reports it, or the direction of her motion through water that
+    /// drifts as it does under own ship.
+    fn heading_rad(&self, seen: &Seen) -> f64 {
+        let through_water_mps = seen.track.velocity_mps - self.motion.drift_mps();
+        let moves = seen.velocity_sd_mps > 0.0 && through_water_mps.norm() > STATIC_SPEED_MPS;
+        let found_rad =
+            if moves { angle::direction(through_water_mps) } else { seen.track.cog_rad };
+        seen.track.psi_rad.unwrap_or(found_rad)
+    }
+
+    /// Known well enough to be classed, or too near to wait.
     fn is_watched(&self, seen: &Seen, now: &Now) -> bool {
         seen.watched_s >= self.options.watch_s
+            || seen.velocity_sd_mps <= KNOWN_COURSE * seen.track.sog_mps
             || now.risk_tcpa_s <= URGENT_S
             || now.moment.range_m <= self.options.stand_on_range_m
     }
@@ -184,19 +220,24 @@ impl ZhuangCorrected {
 
     fn act(&mut self, own: &OwnState, wish: Wish, fixed: Fixed) -> Trial {
         let straight_on = self.straight_on(wish);
-        let must_act = self.targets.iter().any(|t| t.encounter.is_some_and(|e| e.may_act));
+        let must_act = self.targets.iter().any(|t| t.encounter.is_some_and(|e| e.asks_to_act()));
         let Some(mut manoeuvre) = self.manoeuvre else {
-            if !must_act || self.shortfall_m(own, straight_on, fixed) <= 0.0 {
+            // after a return the doubt must be larger, or own ship would waver
+            let least_m = if self.returned { AGAIN_SHARE * self.options.margin_m } else { 0.0 };
+            if !must_act || self.shortfall_m(own, straight_on, fixed) <= least_m {
                 return straight_on;
             }
             let reference = self.reference(own, wish);
             let choice = self.search(own, reference, fixed);
             self.manoeuvre = Some(Manoeuvre { reference, trial: choice.trial, made: false });
+            // own ship's heading says nothing of the class from here on
+            self.encounters.iter_mut().for_each(|e| e.sure = true);
             return choice.trial;
         };
         manoeuvre.made |= is_made(own, &manoeuvre);
         if (manoeuvre.made || !must_act) && self.is_clear(own, straight_on, fixed) {
             self.manoeuvre = None;
+            self.returned = true;
             return straight_on;
         }
         let lost_m = self.shortfall_m(own, manoeuvre.trial, fixed);
@@ -213,11 +254,14 @@ impl ZhuangCorrected {
     /// Offsets count from the wish, so that a second manoeuvre on the way back does not add to the
     /// first; but on the way into another leg of the route from the present course.
     fn reference(&self, own: &OwnState, wish: Wish) -> Reference {
-        let wished_rad = wish.course_rad();
-        let turning = wrap(wished_rad - own.cog_rad).abs() > LEG_CHANGE_RAD;
+        let drift_mps = self.motion.drift_mps();
+        let through_water_mps = wish.velocity_mps() - drift_mps;
+        let wished_rad = angle::direction(through_water_mps);
+        let turning = wrap(wished_rad - own.psi_rad).abs() > LEG_CHANGE_RAD;
         Reference {
-            course_rad: if turning { own.cog_rad } else { wished_rad },
-            speed_mps: wish.speed_mps,
+            psi_rad: if turning { own.psi_rad } else { wished_rad },
+            stw_mps: through_water_mps.norm(),
+            drift_mps,
             alteration_rad: deg(self.options.alteration_deg),
             wish_mps: wish.velocity_mps(),
         }
@@ -266,24 +310,42 @@ impl Planner for ZhuangCorrected {
             clearance: Clearance::new(mission, radius, unknown_length_m),
             agility: Agility::new(&mission.own, trusted_share, lag_s),
             safety_radius_m: mission.safety_radius_m,
+            speed_mps_max: mission.own.speed_mps_max,
             hulls: Some(HullOutline::centred(mission.own.length_m, mission.own.beam_m)),
         });
         self.lookout.clear();
+        self.motion.clear();
+        self.ordered_mps = None;
         self.encounters.clear();
         self.manoeuvre = None;
+        self.returned = false;
         self.events = PlannerEvents::default();
     }
 
     fn plan(&mut self, situation: &Situation<'_>) -> Command {
         let fixed = self.fixed.expect("reset comes before the first beat");
         let wish = self.guidance.wish(situation.own.position_m);
-        let alerts = self.observe(situation, wish, fixed);
+        let own = self.motion.note(situation.t_s, &situation.own, self.ordered_mps);
+        let alerts = self.observe(situation, &own, wish, fixed);
+        self.returned &= !self.encounters.is_empty();
         let trial = if self.encounters.is_empty() && self.manoeuvre.is_none() {
             Trial { course_rad: wish.course_rad(), speed_mps: wish.speed_mps }
         } else {
-            self.act(&situation.own, wish, fixed)
+            self.act(&own, wish, fixed)
         };
-        Command { alerts, ..Command::course_speed(trial.course_rad, trial.speed_mps) }
+        let mut velocity_mps = angle::unit(trial.course_rad) * trial.speed_mps;
+        if self.manoeuvre.is_some() {
+            // what the helm does not know of the drift would turn her at low speed
+            velocity_mps += self.motion.helm_mps() - self.motion.drift_mps();
+        }
+        let speed_mps = velocity_mps.norm().min(fixed.speed_mps_max);
+        let course_rad = if self.manoeuvre.is_some() {
+            angle::direction(velocity_mps)
+        } else {
+            trial.course_rad
+        };
+        self.ordered_mps = Some(angle::unit(course_rad) * speed_mps);
+        Command { alerts, ..Command::course_speed(course_rad, speed_mps) }
     }
 
     fn events(&self) -> PlannerEvents {
@@ -294,9 +356,9 @@ impl Planner for ZhuangCorrected {
 /// The alteration is as large as ordered, or the apparent one; or the speed is cut by half.
 fn is_made(own: &OwnState, manoeuvre: &Manoeuvre) -> bool {
     let reference = manoeuvre.reference;
-    let turned_rad = wrap(own.cog_rad - reference.course_rad).abs();
+    let turned_rad = wrap(own.psi_rad - reference.psi_rad).abs();
     let turned = turned_rad >= reference.alteration_rad - MADE_WITHIN_RAD;
-    turned || own.sog_mps <= 0.5 * reference.speed_mps
+    turned || own.stw_mps <= 0.5 * reference.stw_mps
 }
 
 fn alert(encounter: &Encounter) -> Alert {
@@ -314,12 +376,9 @@ fn alert(encounter: &Encounter) -> Alert {
 
 /// A target for the search, at this place.
 fn target(own: &OwnState, place_m: Vec2, last: &LastSeen, encounter: Option<Encounter>) -> Target {
-    let sog_mps = last.velocity_mps.norm();
     Target {
         from_own_m: place_m - own.position_m,
         velocity_mps: last.velocity_mps,
-        sog_mps,
-        cog_rad: if sog_mps > 0.0 { angle::direction(last.velocity_mps) } else { 0.0 },
         plan_m: last.plan_m,
         encounter,
     }

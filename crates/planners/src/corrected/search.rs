@@ -4,7 +4,7 @@
 use super::encounter::Encounter;
 use super::path::{Agility, Path, Trial};
 use crate::zhuang::{equations, planner::ccw};
-use geom::{EncounterClass, Vec2, cpa, math, units::deg, wrap};
+use geom::{EncounterClass, Vec2, angle, cpa, math, units::deg, wrap};
 use planner_api::OwnState;
 
 /// Step of the fan, degrees.
@@ -12,8 +12,8 @@ const FAN_STEP_DEG: f64 = 5.0;
 /// The fan ends here: beyond it own ship would sail back.
 const FAN_DEG_MAX: f64 = 150.0;
 /// Shares of the speed at the start of the manoeuvre: as it is; a cut of more than half, which is
-/// readily apparent; stopped.
-const SPEED_SHARES: [f64; 3] = [1.0, 0.45, 0.0];
+/// readily apparent; nearly stopped, with way enough to hold the heading.
+const SPEED_SHARES: [f64; 3] = [1.0, 0.45, 0.1];
 /// Cost of one metre that lacks to the planned distance, in degrees of alteration: distance
 /// comes first.
 const SHORTFALL_COST: f64 = 10.0;
@@ -36,27 +36,36 @@ pub struct Target {
     pub from_own_m: Vec2,
     /// m/s.
     pub velocity_mps: Vec2,
-    /// Speed, m/s.
-    pub sog_mps: f64,
-    /// Course, radians clockwise from north.
-    pub cog_rad: f64,
     /// Planned distance between reference points, metres.
     pub plan_m: f64,
     /// The encounter, if it is one.
     pub encounter: Option<Encounter>,
 }
 
-/// From where offsets count: course and speed at the start of the manoeuvre.
+/// From where offsets count: heading and speed through the water at the start of the manoeuvre. It
+/// is the heading that the other ship sees; a course over ground kept at half the speed in a current
+/// would be a turn.
 #[derive(Clone, Copy, Debug)]
 pub struct Reference {
     /// Radians clockwise from north.
-    pub course_rad: f64,
+    pub psi_rad: f64,
     /// Metres a second.
-    pub speed_mps: f64,
+    pub stw_mps: f64,
+    /// What the water does, m/s north and east.
+    pub drift_mps: Vec2,
     /// Smallest alteration, radians.
     pub alteration_rad: f64,
     /// The velocity to return to, m/s north and east.
     pub wish_mps: Vec2,
+}
+
+impl Reference {
+    /// The order over ground that makes this offset of the heading at this share of the speed.
+    fn trial(&self, offset_rad: f64, share: f64) -> Trial {
+        let through_water_mps = angle::unit(self.psi_rad + offset_rad) * (self.stw_mps * share);
+        let velocity_mps = through_water_mps + self.drift_mps;
+        Trial { course_rad: angle::direction(velocity_mps), speed_mps: velocity_mps.norm() }
+    }
 }
 
 /// A manoeuvre with its cost and the distance by which it misses the plan (0 if it keeps it).
@@ -99,10 +108,9 @@ pub fn cheapest(
     let straight = encounters().all(|e| !e.may_act || e.class != EncounterClass::HeadOn);
     let mut best: Option<Choice> = None;
     for share in SPEED_SHARES {
-        let speed_mps = reference.speed_mps * share;
         let slows = share < 1.0;
         let mut consider = |offset_rad: f64| {
-            let trial = Trial { course_rad: wrap(reference.course_rad + offset_rad), speed_mps };
+            let trial = reference.trial(offset_rad, share);
             let port_cost = if offset_rad < 0.0 { PORT_COST_DEG } else { 0.0 };
             let effort = offset_rad.abs().to_degrees() + (1.0 - share) * STOP_COST_DEG + port_cost;
             if best.is_some_and(|b| effort >= b.cost) {
@@ -123,7 +131,7 @@ pub fn cheapest(
         if slows && straight {
             consider(0.0);
         }
-        for offset_rad in exact_offsets(reference, speed_mps, targets) {
+        for offset_rad in exact_offsets(reference, share, targets) {
             let large = offset_rad.abs() >= reference.alteration_rad;
             if large && (port || offset_rad > 0.0) {
                 consider(offset_rad);
@@ -159,19 +167,21 @@ fn minutes_until_clear(path: &Path, wish_mps: Vec2, targets: &[Target]) -> u32 {
 /// to starboard of it and to port; seed planner specification, section 1.3.
 fn exact_offsets(
     reference: Reference,
-    speed_mps: f64,
+    share: f64,
     targets: &[Target],
 ) -> impl Iterator<Item = f64> + '_ {
-    let alpha = ccw(reference.course_rad);
+    let alpha = ccw(reference.psi_rad);
     targets.iter().filter(|target| target.encounter.is_some()).flat_map(move |target| {
         let theta = math::atan2(target.from_own_m.x, target.from_own_m.y);
         let mu = equations::mu(target.plan_m, target.from_own_m.norm());
         [-1.0, 1.0].into_iter().filter_map(move |s| {
-            let beta = ccw(target.cog_rad);
+            // through the water, where own speed does not depend on the course
+            let velocity_mps = target.velocity_mps - reference.drift_mps;
+            let beta = math::atan2(velocity_mps.x, velocity_mps.y);
+            let (stw_mps, v_b) = (reference.stw_mps * share, velocity_mps.norm());
             let edge = theta + s * mu;
-            let exact =
-                equations::exact_heading_only(speed_mps, alpha, target.sog_mps, beta, edge)?;
-            // clockwise offset from the reference course
+            let exact = equations::exact_heading_only(stw_mps, alpha, v_b, beta, edge)?;
+            // clockwise offset from the reference heading
             Some(wrap(alpha - exact))
         })
     })
