@@ -6,7 +6,7 @@ use planner_api::Registry;
 
 /// The plans of a campaign file; `change` may alter the file first. Rule sets are those of the
 /// repository, wherever the command is run.
-pub fn plans(
+pub(crate) fn plans(
     file: &str,
     overrides: &Overrides,
     registry: &Registry,
