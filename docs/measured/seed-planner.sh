@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes every number of docs/seed-planner.md, compare.md and paper-random.md again: runs the campaigns
-# into the folder RESULTS (those that are there already are not run again), then fills the tables.
+# Makes every number of docs/seed-planner.md, compare.md and paper-random.md again: runs the
+# campaigns into the folder RESULTS (those that are there already are not run again), then fills the
+# tables.
 set -euo pipefail
 results=$(realpath -m "${1:?usage: seed-planner.sh RESULTS}")
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

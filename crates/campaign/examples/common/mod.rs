@@ -1,4 +1,5 @@
-//! What the examples of this folder share: from a campaign file to plans, without a result's folder.
+//! What the examples of this folder share: from a campaign file to plans, without a result's
+//! folder.
 
 use campaign::plan::Build;
 use campaign::{CampaignFile, Error, Overrides, Plan};

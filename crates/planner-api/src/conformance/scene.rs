@@ -14,8 +14,8 @@ const SPEED_MPS_MAX: f64 = 12.0;
 
 /// A scripted encounter.
 ///
-/// Two in three are as good as a laboratory; in every third one own ship drifts, tracks come with the
-/// covariance of an estimate, and there is land on the chart.
+/// Two in three are as good as a laboratory; in every third one own ship drifts, tracks come with
+/// the covariance of an estimate, and there is land on the chart.
 #[derive(Clone, Debug)]
 pub(super) struct Scene {
     mission: Mission,

@@ -36,7 +36,8 @@ impl OwnMotion {
         *self = Self::default();
     }
 
-    /// Takes in a beat, with the velocity that was ordered on the one before; own ship with her mean heading and velocity where she is steady.
+    /// Takes in a beat, with the velocity that was ordered on the one before; own ship with her
+    /// mean heading and velocity where she is steady.
     pub fn note(&mut self, t_s: f64, own: &OwnState, ordered_mps: Option<Vec2>) -> OwnState {
         self.beats.push_back((t_s, own.psi_rad, own.velocity_mps));
         while self.beats.front().is_some_and(|beat| beat.0 < t_s - MEAN_S) {
@@ -83,8 +84,8 @@ impl OwnMotion {
         t_s - since_s >= CARRIED_OUT_S
     }
 
-    /// What own helm takes off an order over ground before it steers, m/s north and east: the part of
-    /// the drift that it knows.
+    /// What own helm takes off an order over ground before it steers, m/s north and east: the part
+    /// of the drift that it knows.
     pub fn helm_mps(&self) -> Vec2 {
         self.helm_mps
     }

@@ -43,8 +43,8 @@ pub struct Target {
 }
 
 /// From where offsets count: heading and speed through the water at the start of the manoeuvre. It
-/// is the heading that the other ship sees; a course over ground kept at half the speed in a current
-/// would be a turn.
+/// is the heading that the other ship sees; a course over ground kept at half the speed in a
+/// current would be a turn.
 #[derive(Clone, Copy, Debug)]
 pub struct Reference {
     /// Radians clockwise from north.

@@ -1,9 +1,9 @@
 //! A target's steady motion: a straight line through the history of her track.
 //!
 //! A tracker has to follow turns, so the velocity of its tracks is no better than half a metre a
-//! second, and two minutes later that is 60 m of distance at the closest point. A ship that keeps her
-//! course can be watched for longer. The line holds until the track's own velocity says plainly that
-//! she has altered. A perfect track is taken as it is.
+//! second, and two minutes later that is 60 m of distance at the closest point. A ship that keeps
+//! her course can be watched for longer. The line holds until the track's own velocity says plainly
+//! that she has altered. A perfect track is taken as it is.
 
 use geom::{Vec2, angle};
 use planner_api::TargetTrack;

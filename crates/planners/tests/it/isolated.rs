@@ -1,6 +1,6 @@
 //! F5, F12 and F19, each alone: a test that fails if, and only if, that property is repaired. Every
-//! repair is applied to the paper's planner by itself, and must take away its own property and leave
-//! the others.
+//! repair is applied to the paper's planner by itself, and must take away its own property and
+//! leave the others.
 
 use crate::random::encounter;
 use crate::scene::{Scene, Vessel, course_speed};
@@ -45,8 +45,8 @@ fn repaired(repair: Repair, passes: u32) -> Box<dyn Planner> {
     Box::new(zhuang)
 }
 
-/// The planner, shown the scene as it will be when half of its own turn is done: a turn at a limited
-/// rate is very nearly one at once after half of its time.
+/// The planner, shown the scene as it will be when half of its own turn is done: a turn at a
+/// limited rate is very nearly one at once after half of its time.
 struct Foresees {
     zhuang: Zhuang,
     yaw_rate_radps: f64,
@@ -124,8 +124,8 @@ fn serves_the_largest_turn(repair: Repair) -> bool {
     of(later)
 }
 
-/// F19: the order for a ship that turns by 2 degrees a second is that for one that turns at once. What
-/// that costs is in `findings`.
+/// F19: the order for a ship that turns by 2 degrees a second is that for one that turns at once.
+/// What that costs is in `findings`.
 fn orders_as_if_she_turned_at_once(repair: Repair) -> bool {
     let course_deg = |turn_rate_deg: f64| {
         let met = Vessel(0.0, 600.0, 6.0, -90.0);

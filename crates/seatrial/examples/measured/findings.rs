@@ -1,8 +1,8 @@
 //! The seed planner's known faults beside the clusters of the reports that show them.
 //!
 //! A report knows no F-number: its clusters are made of rule or event, class and planner. Which
-//! cluster shows which fault is said here, once; how often it came up, in which encounter it is worst
-//! and what becomes of it in a planner without the fault is read from the results.
+//! cluster shows which fault is said here, once; how often it came up, in which encounter it is
+//! worst and what becomes of it in a planner without the fault is read from the results.
 
 use crate::{each_row, line, planner, rate};
 use record::{Check, EncounterClass, Outcome, Status};

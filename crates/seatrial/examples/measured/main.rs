@@ -6,14 +6,16 @@
 //! cargo run -p seatrial --example measured -- print RESULTS TABLE [DIR...]
 //! ```
 //!
-//! A document has marked blocks, `<!-- measured TABLE DIR... -->` up to `<!-- /measured -->`; `into`
-//! puts the tables between the marks. Folders are relative to RESULTS, which the commands at the head
-//! of `docs/seed-planner.md` fill. The tables:
+//! A document has marked blocks, `<!-- measured TABLE DIR... -->` up to `<!-- /measured -->`;
+//! `into` puts the tables between the marks. Folders are relative to RESULTS, which the commands at
+//! the head of `docs/seed-planner.md` fill. The tables:
 //!
 //! * `findings`: the seed planner's faults, each with the clusters of the reports that show it;
-//! * `failures DIR...`: what checks and events found in a result, by class, with exact bounds and the
+//! * `failures DIR...`: what checks and events found in a result, by class, with exact bounds and
+//! the
 //!   worst encounter;
-//! * `random DIR...`: the paper's own world: distances, first alterations, the inner loop, the goal;
+//! * `random DIR...`: the paper's own world: distances, first alterations, the inner loop, the
+//! goal;
 //! * `compare DIR`: the planners of a comparison side by side;
 //! * `scenes DIR...`: the smallest distances of named scenes.
 

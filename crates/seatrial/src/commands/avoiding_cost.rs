@@ -117,8 +117,8 @@ fn mean(sum: Extra) -> Extra {
 }
 
 /// Time to the passage of the goal, and from there or from the end of the run to it at planned
-/// speed, less the whole way at planned speed, seconds. The goal is passed where own ship is nearest
-/// to it.
+/// speed, less the whole way at planned speed, seconds. The goal is passed where own ship is
+/// nearest to it.
 fn extra_time_s(run: &Run) -> f64 {
     let (own, trace) = (&run.trace.own, &run.trace);
     let mut planned_m = 0.0;

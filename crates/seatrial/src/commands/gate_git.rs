@@ -52,7 +52,8 @@ pub(super) fn commit(revision: &str) -> Result<String, Error> {
 /// Builds into the shared target folder, where cargo puts the binary in the place of the present
 /// one; that one is put back.
 fn build_tree(tree: &Path, target: &Path, revision: &str, kept: &Path) -> Result<(), Error> {
-    // as `cargo xtask` builds, so that dependencies are compiled once; older revisions had `release`
+    // as `cargo xtask` builds, so that dependencies are compiled once; older revisions had
+    // `release`
     let optimised = tree.join(".cargo/optimised.toml");
     let (folder, settings) = if optimised.is_file() {
         ("debug", [OsStr::new("--config"), optimised.as_os_str()].to_vec())
