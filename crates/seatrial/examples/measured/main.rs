@@ -12,10 +12,8 @@
 //!
 //! * `findings`: the seed planner's faults, each with the clusters of the reports that show it;
 //! * `failures DIR...`: what checks and events found in a result, by class, with exact bounds and
-//! the
-//!   worst encounter;
-//! * `random DIR...`: the paper's own world: distances, first alterations, the inner loop, the
-//! goal;
+//!   the worst encounter;
+//! * `random DIR...`: the paper's own world: distances, first alterations, inner loop and goal;
 //! * `compare DIR`: the planners of a comparison side by side;
 //! * `scenes DIR...`: the smallest distances of named scenes.
 
