@@ -8,8 +8,8 @@ use std::path::Path;
 
 /// One thousand encounters of one stratum; the control misbehaves in a share of them.
 fn campaign(folder: &Path, planner: &str, share: f64) {
-    let quick = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../campaigns/quick.toml"));
-    let mut table: toml::Table = quick.unwrap().parse().unwrap();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../campaigns/laboratory.toml");
+    let mut table: toml::Table = fs::read_to_string(path).unwrap().parse().unwrap();
     table.insert("planners".into(), toml::Value::Array(vec![planner.into()]));
     let run = table["run"].as_table_mut().unwrap();
     run.insert("planner_hang_limit_s".into(), 1.0.into());

@@ -4,7 +4,7 @@ use crate::support::{run_err, run_ok};
 use std::fs;
 use std::path::Path;
 
-const CAMPAIGN: &str = "campaign quick --encounters 510 --planner hold-course --quiet";
+const CAMPAIGN: &str = "campaign laboratory --encounters 510 --planner hold-course --quiet";
 
 fn run_shards(folder: &Path, of: u64, which: impl Iterator<Item = u64>) {
     for i in which {

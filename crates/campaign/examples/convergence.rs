@@ -10,7 +10,7 @@ use record::{Check, RunRow, Status};
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicU64;
 
-const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../campaigns/quick.toml");
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../campaigns/laboratory.toml");
 
 fn main() -> Result<(), Error> {
     let arguments: Vec<String> = std::env::args().collect();

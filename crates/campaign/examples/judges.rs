@@ -1,6 +1,6 @@
 //! Every kind of disagreement between the two judges, with examples, and what the second one costs.
 //!
-//! `cargo run --release -p campaign --example judges -- campaigns/quick.toml zhuang 2000`
+//! `cargo run --release -p campaign --example judges -- campaigns/laboratory.toml zhuang 2000`
 #![forbid(unsafe_code)]
 
 mod common;

@@ -7,7 +7,7 @@ use planner_api::Options;
 use record::Encounter;
 use std::sync::atomic::AtomicU64;
 
-const QUICK: &str = include_str!("../../../campaigns/quick.toml");
+const LABORATORY: &str = include_str!("../../../campaigns/laboratory.toml");
 const RULES: &str = include_str!("../../../campaigns/rulesets/usv-oe2023-v1.toml");
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/corpus");
 /// One of its cases.
@@ -19,7 +19,7 @@ const RULESETS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../campaigns/rul
 #[test]
 fn a_failure_is_made_small_goes_on_failing_and_survives_its_file() {
     let registry = planners::registry();
-    let file = campaign::CampaignFile::parse(QUICK, "quick").unwrap();
+    let file = campaign::CampaignFile::parse(LABORATORY, "laboratory").unwrap();
     let settings = encounter::RunSettings {
         limits: file.run.limits(),
         safety_radius_m: file.run.safety_radius_m,

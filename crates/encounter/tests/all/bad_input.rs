@@ -16,10 +16,10 @@ fn changed(name: &str, from: &str, to: &str) -> String {
     text.replacen(from, to, 1)
 }
 
-/// The message about `quick` with one thing changed.
+/// The message about `laboratory` with one thing changed.
 fn refused(from: &str, to: &str) -> String {
-    let run = run_settings(&campaign("quick"));
-    match parse(&changed("quick", from, to)) {
+    let run = run_settings(&campaign("laboratory"));
+    match parse(&changed("laboratory", from, to)) {
         Err(message) => message,
         Ok(model) => Generator::new(&model, &run).map(|_| ()).unwrap_err().to_string(),
     }
@@ -117,8 +117,8 @@ fn a_class_that_cannot_be_placed_is_an_error() {
 
 #[test]
 fn a_radius_below_half_the_hulls_is_refused_between_centres() {
-    let model = parse(&changed("quick", "", "")).unwrap();
-    let mut run = run_settings(&campaign("quick"));
+    let model = parse(&changed("laboratory", "", "")).unwrap();
+    let mut run = run_settings(&campaign("laboratory"));
     run.distance = DistanceKind::Centre;
     run.safety_radius_m = 60.0;
     let message = Generator::new(&model, &run).unwrap_err().to_string();
@@ -136,9 +136,9 @@ fn a_radius_below_half_the_hulls_is_refused_between_centres() {
 
 #[test]
 fn no_stratum_is_an_error() {
-    let mut model = parse(&changed("quick", "", "")).unwrap();
+    let mut model = parse(&changed("laboratory", "", "")).unwrap();
     model.stratum.clear();
-    let error = Generator::new(&model, &run_settings(&campaign("quick"))).unwrap_err();
+    let error = Generator::new(&model, &run_settings(&campaign("laboratory"))).unwrap_err();
     assert!(matches!(&error, Error::Spec { key, .. } if key == "model.stratum"), "{error}");
 }
 

@@ -44,7 +44,7 @@ pub(crate) fn generator(name: &str) -> Generator {
 }
 
 /// A generator that every case of a property test shares.
-pub(crate) fn quick() -> &'static Generator {
-    static QUICK: std::sync::OnceLock<Generator> = std::sync::OnceLock::new();
-    QUICK.get_or_init(|| generator("quick"))
+pub(crate) fn laboratory() -> &'static Generator {
+    static LABORATORY: std::sync::OnceLock<Generator> = std::sync::OnceLock::new();
+    LABORATORY.get_or_init(|| generator("laboratory"))
 }

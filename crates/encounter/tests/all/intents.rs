@@ -16,14 +16,14 @@ planner = "hold-course"
 [model.geometry]"#;
 
 fn generator(mix: &str) -> Result<Generator, String> {
-    let path = format!("{}/../../campaigns/quick.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../../campaigns/laboratory.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("the campaign is there");
     let text = text
         .replacen("intent = \"hold_course\"", &format!("intent = \"hold_course\"\n{mix}"), 1)
         .replacen("[model.geometry]", CONDUCT, 1);
     let file: toml::Table = text.parse().expect("the text is TOML");
     let model: Model = file["model"].clone().try_into().map_err(|e| format!("{e}"))?;
-    Generator::new(&model, &run_settings(&campaign("quick"))).map_err(|e| e.to_string())
+    Generator::new(&model, &run_settings(&campaign("laboratory"))).map_err(|e| e.to_string())
 }
 
 fn draw(generator: &Generator, j: u64) -> Encounter {

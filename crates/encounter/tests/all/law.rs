@@ -62,9 +62,9 @@ fn share(encounter: &Encounter, model: &Model) -> f64 {
 
 #[test]
 fn given_variables_are_uniform_in_every_class() {
-    let model = model(&campaign("quick"));
+    let model = model(&campaign("laboratory"));
     for stratum in 0..5 {
-        let drawn = draws("quick", stratum);
+        let drawn = draws("laboratory", stratum);
         let of = |f: &dyn Fn(&Encounter) -> f64| drawn.iter().map(f).collect::<Vec<f64>>();
         let name = &drawn[0].id.stratum;
         for (what, values, low, high) in [
@@ -84,7 +84,7 @@ fn given_variables_are_uniform_in_every_class() {
 #[test]
 fn given_variables_are_the_first_draws_of_their_streams() {
     for stratum in 0..5 {
-        for encounter in &draws("quick", stratum)[..500] {
+        for encounter in &draws("laboratory", stratum)[..500] {
             let streams = Streams::new(SEED, &encounter.id);
             let speed_mps = streams.stream(Purpose::Geometry, 0).uniform_in(5.0, 9.0);
             assert_eq!(encounter.own.start.speed_mps.to_bits(), speed_mps.to_bits());
@@ -164,7 +164,7 @@ fn target_speed_and_course_are_those_of_plain_rejection() {
         let mut stream = Streams::new(Seed(5), &id).stream(Purpose::Geometry, 0);
         let plain: Vec<(f64, f64)> =
             (0..N).map(|_| by_plain_rejection(class, &mut stream)).collect();
-        let drawn = draws("quick", stratum);
+        let drawn = draws("laboratory", stratum);
         // head-on courses lie around 180 degrees, so courses are counted from there
         let turned = |course_rad: f64| wrap(course_rad - std::f64::consts::PI);
         let speeds = gap_between(
@@ -182,7 +182,7 @@ fn target_speed_and_course_are_those_of_plain_rejection() {
 #[test]
 fn both_sides_of_a_border_are_equally_likely() {
     for stratum in 5..9 {
-        let drawn = draws("quick", stratum);
+        let drawn = draws("laboratory", stratum);
         let name = drawn[0].id.stratum.to_string();
         let first = match name.as_str() {
             "boundary_head_on" => EncounterClass::HeadOn,
@@ -210,12 +210,12 @@ fn both_sides_of_a_border_are_equally_likely() {
 fn port_and_starboard_are_mirror_images() {
     let side = |e: &Encounter, sign: f64| sign * e.targets[0].start.position_m.y;
     let gap = gap_between(
-        draws("quick", 1).iter().map(|e| side(e, 1.0)).collect(),
-        draws("quick", 2).iter().map(|e| side(e, -1.0)).collect(),
+        draws("laboratory", 1).iter().map(|e| side(e, 1.0)).collect(),
+        draws("laboratory", 2).iter().map(|e| side(e, -1.0)).collect(),
     );
     assert!(gap < LIMIT, "crossing {gap}");
     for stratum in [0, 3, 4, 5, 7, 8] {
-        let drawn = draws("quick", stratum);
+        let drawn = draws("laboratory", stratum);
         let k = drawn.iter().filter(|e| side(e, 1.0) > 0.0).count() as f64;
         let n = N as f64;
         assert!((k - n / 2.0).abs() < 3.3 * (n / 4.0).sqrt(), "{}: {k}", drawn[0].id.stratum);

@@ -1,6 +1,6 @@
 //! Every encounter is what its stratum promised: class, miss distance, time, range and side.
 
-use crate::common::{campaign, generator, model, quick, run_settings};
+use crate::common::{campaign, generator, laboratory, model, run_settings};
 use encounter::spec::{AlsoSpec, AlterSpec, IntentSpec};
 use encounter::{Distribution, Generator, class_at_start, nominal_cpa};
 use geom::units::{deg, to_deg};
@@ -51,10 +51,10 @@ fn keeps_promise(encounter: &Encounter, head_on: HeadOnSector) -> Result<(), Tes
 proptest! {
     /// Found: a miss distance of the wrong sign when the normal was turned to port.
     #[test]
-    fn quick_has_class_miss_distance_time_range_and_goal(
+    fn laboratory_has_class_miss_distance_time_range_and_goal(
         seed in any::<u64>(), stratum in 0usize..9, j in 0u64..1_000_000_000,
     ) {
-        let generator = quick();
+        let generator = laboratory();
         let encounter = generator.draw(Seed(seed), stratum, j).unwrap().encounter;
         keeps_promise(&encounter, WIDE)?;
         let asked = encounter.asked.unwrap();
@@ -90,7 +90,7 @@ proptest! {
         seed in any::<u64>(), stratum in 5usize..9, j in 0u64..1_000_000_000,
     ) {
         use EncounterClass::{CrossingPort, CrossingStbd, HeadOn, Overtaken, Overtaking};
-        let encounter = quick().draw(Seed(seed), stratum, j).unwrap().encounter;
+        let encounter = laboratory().draw(Seed(seed), stratum, j).unwrap().encounter;
         let class = encounter.asked.unwrap().class;
         let lie = lie(&encounter);
         let (beta_deg, alpha_deg) = (to_deg(lie.beta_rad).abs(), to_deg(lie.alpha_rad).abs());
@@ -136,8 +136,8 @@ proptest! {
     fn an_encounter_depends_on_seed_stratum_and_number_alone(
         seed in any::<u64>(), stratum in 0usize..9, j in 0u64..1_000_000_000,
     ) {
-        let file = campaign("quick");
-        let all = quick();
+        let file = campaign("laboratory");
+        let all = laboratory();
         let mut alone = model(&file);
         alone.stratum = vec![alone.stratum[stratum].clone()];
         let alone = Generator::new(&alone, &run_settings(&file)).unwrap();
@@ -154,7 +154,7 @@ proptest! {
 /// Further targets are placed like the first, and leave it where it is.
 #[test]
 fn further_targets_keep_their_promise_and_move_nothing() {
-    let file = campaign("quick");
+    let file = campaign("laboratory");
     let mut three = model(&file);
     three.stratum.truncate(1);
     let also = |class| AlsoSpec { class, target_speed_mps: None, relative_course_deg: None };
@@ -162,7 +162,7 @@ fn further_targets_keep_their_promise_and_move_nothing() {
     three.stratum[0].also = Some(further.map(also).to_vec());
     let three = Generator::new(&three, &run_settings(&file)).unwrap();
     for j in 0..200 {
-        let one = quick().draw(Seed(9), 0, j).unwrap();
+        let one = laboratory().draw(Seed(9), 0, j).unwrap();
         let all = three.draw(Seed(9), 0, j).unwrap();
         assert_eq!(all.encounter.targets.len(), 3);
         assert_eq!(all.encounter.targets[0], one.encounter.targets[0]);
@@ -181,7 +181,7 @@ fn further_targets_keep_their_promise_and_move_nothing() {
 /// a line 100 m to the east of her. It passes to starboard of own ship's relative motion.
 #[test]
 fn a_target_that_passes_to_starboard_has_a_positive_miss_distance() {
-    let mut encounter = quick().draw(Seed(1), 0, 0).unwrap().encounter;
+    let mut encounter = laboratory().draw(Seed(1), 0, 0).unwrap().encounter;
     encounter.own.start.speed_mps = 8.0;
     encounter.targets[0].start = record::Motion {
         position_m: Vec2::new(2000.0, 100.0),
@@ -190,7 +190,7 @@ fn a_target_that_passes_to_starboard_has_a_positive_miss_distance() {
     };
     assert!((signed_miss_m(&encounter) - 100.0).abs() < 1e-9);
     for j in 0..200 {
-        let head_on = quick().draw(Seed(1), 0, j).unwrap().encounter;
+        let head_on = laboratory().draw(Seed(1), 0, j).unwrap().encounter;
         // among reciprocal courses the target's side at the start tells the sign, when it is far
         // enough off the line of relative motion
         let asked = head_on.asked.unwrap();
@@ -201,7 +201,7 @@ fn a_target_that_passes_to_starboard_has_a_positive_miss_distance() {
 /// A target that alters does so before the promised closest point, from the same start.
 #[test]
 fn an_alteration_is_timed_from_the_promised_closest_point() {
-    let file = campaign("quick");
+    let file = campaign("laboratory");
     let mut altering = model(&file);
     altering.target.intent = IntentSpec::Alter(AlterSpec {
         before_cpa_s: Distribution::Uniform([50.0, 70.0]),
@@ -212,7 +212,10 @@ fn an_alteration_is_timed_from_the_promised_closest_point() {
     for j in 0..100 {
         let encounter = altering.draw(Seed(9), 1, j).unwrap().encounter;
         let target = &encounter.targets[0];
-        assert_eq!(target.start, quick().draw(Seed(9), 1, j).unwrap().encounter.targets[0].start);
+        assert_eq!(
+            target.start,
+            laboratory().draw(Seed(9), 1, j).unwrap().encounter.targets[0].start
+        );
         let record::Intent::Alter { at_s, course_rad, speed_mps } = target.intent else {
             panic!("{:?}", target.intent)
         };
@@ -225,8 +228,8 @@ fn an_alteration_is_timed_from_the_promised_closest_point() {
 
 /// Pins one encounter: a change here changes every campaign.
 #[test]
-fn the_first_encounters_of_quick_are_pinned() {
-    let generator = quick();
+fn the_first_encounters_of_the_laboratory_are_pinned() {
+    let generator = laboratory();
     let digest: Vec<String> = (0..9)
         .map(|stratum| {
             let drawn = generator.draw(Seed(20_261_121), stratum, 0).unwrap();

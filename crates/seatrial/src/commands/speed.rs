@@ -1,8 +1,10 @@
 //! `speed`: encounters per second, the floor under them, and the share of each stage.
 //!
 //! Each encounter is 20 simulated minutes of two 3-DOF vessels under the seed planner with every
-//! verdict. The floor integrates the same vessels at the same step in a bare loop: no planner, no
-//! hulls, no verdicts. Ratios come from one run; absolute numbers depend on the machine.
+//! verdict, in the laboratory. The floor integrates the same vessels at the same step in a bare loop:
+//! no planner, no hulls, no verdicts. The same encounters are then run in the default world (sensors,
+//! weather, intents) and compared with the laboratory, turn about. Ratios come from one run;
+//! absolute numbers depend on the machine.
 
 use crate::embedded;
 use crate::exit::Ended;
@@ -17,16 +19,21 @@ use std::time::Instant;
 
 const DURATION_S: f64 = 1200.0;
 const VESSEL: &str = "viknes";
+/// The campaign whose world is compared with the laboratory.
+const HONEST: &str = "quick";
 /// Rounds of the comparison of one thread with several.
 const ROUNDS: usize = 5;
+/// Encounters of one world before it is the other's turn: enough that neither pays for the caches
+/// that the other left behind, few enough that drift of the machine's speed falls on both alike.
+const TURN: usize = 20;
 
 pub(super) fn run(encounters: u64, registry: &Registry) -> Result<Ended, Error> {
     if encounters == 0 {
         return Err(Error::input("--encounters 0 measures nothing; ask for at least 1"));
     }
-    let bench = Bench::new(encounters, registry)?;
+    let bench = Bench::new("laboratory", encounters, registry)?;
     let (floor_s, stages) = bench.stages(Floor::Measured)?;
-    let total_s: f64 = stages.iter().map(|(_, seconds)| seconds).sum();
+    let total_s = sum(&stages);
     let per_s = |seconds: f64| encounters as f64 / seconds;
     say!(
         "{encounters} encounters of 20 simulated minutes, two 3-DOF vessels, step {} s",
@@ -46,7 +53,18 @@ pub(super) fn run(encounters: u64, registry: &Registry) -> Result<Ended, Error> 
         cores as f64 * one_s / all_s,
         per_s(one_s)
     );
+    let (plain_s, honest) = Bench::new(HONEST, encounters, registry)?.against(&bench)?;
+    let honest_s = sum(&honest);
+    say!("world `{HONEST}` {:>6.0} encounters/s", per_s(honest_s));
+    say!("cost           {:>8.2} times the laboratory's", honest_s / plain_s);
+    for (stage, seconds) in &honest {
+        say!("  {stage:12} {:>8.1} %", 100.0 * seconds / honest_s);
+    }
     Ok(Ended::Done)
+}
+
+fn sum(stages: &Stages) -> f64 {
+    stages.iter().map(|(_, seconds)| seconds).sum()
 }
 
 /// Whether the bare loop is run beside each encounter.
@@ -67,9 +85,9 @@ struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// The default campaign's encounters, with two 3-DOF vessels and 20 minutes each.
-    fn new(count: u64, registry: &'a Registry) -> Result<Self, Error> {
-        let file = CampaignFile::parse(&embedded::campaign_text("quick")?, "quick")?;
+    /// A campaign's encounters, with two 3-DOF vessels and 20 minutes each.
+    fn new(campaign: &str, count: u64, registry: &'a Registry) -> Result<Self, Error> {
+        let file = CampaignFile::parse(&embedded::campaign_text(campaign)?, campaign)?;
         let build = crate::build::build();
         let plans =
             file.resolve(&Overrides::default(), None, registry, &embedded::rules_text, &build)?;
@@ -96,13 +114,33 @@ impl<'a> Bench<'a> {
 
     /// Seconds of the floor and of each stage over all encounters on one core.
     fn stages(&self, floor: Floor) -> Result<(f64, Stages), Error> {
+        self.stages_of(&self.encounters, floor)
+    }
+
+    /// Seconds of `other` in all, and of each stage of this world, both over all encounters, turn
+    /// about.
+    fn against(&self, other: &Self) -> Result<(f64, Stages), Error> {
+        let (mut other_s, mut own): (f64, Stages) = (0.0, Vec::new());
+        for (theirs, ours) in other.encounters.chunks(TURN).zip(self.encounters.chunks(TURN)) {
+            other_s += sum(&other.stages_of(theirs, Floor::LeftOut)?.1);
+            let (_, stages) = self.stages_of(ours, Floor::LeftOut)?;
+            if own.is_empty() {
+                own = stages;
+            } else {
+                own.iter_mut().zip(stages).for_each(|(sum, (_, seconds))| sum.1 += seconds);
+            }
+        }
+        Ok((other_s, own))
+    }
+
+    fn stages_of(&self, encounters: &[Encounter], floor: Floor) -> Result<(f64, Stages), Error> {
         let mut planner =
             (self.entry.make)(&self.entry.options).map_err(|e| Error::input(e.to_string()))?;
         let mut scratch = sim::Scratch::default();
         let mut judge = rules::Judge::new(self.rules.clone());
         let beat = AtomicU64::new(0);
         let (mut floor_s, mut spent) = (0.0, [0.0; 7]);
-        for encounter in &self.encounters {
+        for encounter in encounters {
             // every stage of one encounter, then the next, so that drift of the machine's speed
             // falls on all of them alike
             if floor == Floor::Measured {
