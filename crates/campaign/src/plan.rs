@@ -36,6 +36,10 @@ pub struct PlannerChoice {
     pub name: String,
     /// Every option with its value.
     pub options: toml::Table,
+    /// SHA-256 of each file of a planner from outside, by the path that its name gives. A change of
+    /// one is another planner.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub files_sha256: BTreeMap<String, String>,
 }
 
 /// The rule set that judges.
@@ -223,7 +227,11 @@ impl Plan {
             campaign: file.name.clone(),
             title: file.title.clone(),
             seed: Seed(overrides.seed.unwrap_or(file.seed)),
-            planner: PlannerChoice { name: planner.to_owned(), options },
+            planner: PlannerChoice {
+                name: planner.to_owned(),
+                options,
+                files_sha256: BTreeMap::new(),
+            },
             rules: rules.clone(),
             strata,
             encounters_per_stratum: overrides.encounters.unwrap_or(file.encounters_per_stratum),

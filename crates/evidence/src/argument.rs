@@ -6,6 +6,7 @@
 
 use crate::claims::{Claim, HAZARDS};
 use crate::pack::PackInput;
+use crate::sections::{READINGS, SELF_TEST, Sections};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -29,69 +30,93 @@ pub(crate) struct Node {
 /// The nodes; `hashes` are those of the files that leaves point at.
 pub(crate) fn nodes(
     input: &PackInput<'_>,
-    claims: &[Claim],
+    sections: &Sections,
     hashes: &BTreeMap<String, String>,
 ) -> Vec<Node> {
-    let plan = input.plan;
-    let node = |id: &str, kind, text: String, parent: Option<&str>| Node {
-        id: id.to_owned(),
-        kind,
-        text,
-        parent: parent.map(str::to_owned),
-        file: None,
-        sha256: None,
-    };
-    let leaf = |id: String, text: String, parent: &str, file: &str| Node {
-        file: Some(file.to_owned()),
-        sha256: hashes.get(file).cloned(),
-        ..node(&id, "solution", text, Some(parent))
-    };
-    let mut nodes = vec![
-        node(
-            "G0",
-            "goal",
-            format!("Planner {} avoids the hazards of collision avoidance", plan.planner.name),
-            None,
-        ),
-        node("C1", "context", format!("campaign {}: {}", plan.campaign, plan.title), Some("G0")),
-        node("C2", "context", format!("rule set {}", plan.rules.name), Some("G0")),
-        node(
-            "A1",
-            "assumption",
-            "models of ships, sensing and traffic as the plan says".to_owned(),
-            Some("G0"),
-        ),
-        node("S1", "strategy", "over hazards, by counting encounters".to_owned(), Some("G0")),
-    ];
+    let claims = input.gathered.claims.list();
+    let mut tree = Tree { nodes: top(input, sections), hashes };
     for (i, hazard) in HAZARDS.iter().enumerate() {
         let id = format!("G{}", i + 1);
-        let of: Vec<&Claim> = claims.iter().filter(|claim| claim.hazard == *hazard).collect();
-        nodes.push(node(
-            &id,
-            "goal",
-            format!("{} is avoided: {}", hazard.id, hazard.text),
-            Some("S1"),
-        ));
-        for claim in of {
-            let text = if claim.n == 0 {
-                format!("{}: untested", claim.requirement)
-            } else {
-                format!("{}: broken in {} of {}", claim.requirement, claim.broken, claim.n)
-            };
-            nodes.push(leaf(format!("Sn-{}", claim.id), text, &id, &claim.file()));
+        tree.goal(&id, format!("{} is avoided: {}", hazard.id, hazard.text));
+        for claim in claims.iter().filter(|claim| claim.hazard == *hazard) {
+            tree.leaf(&claim.id, said(claim), &id, &claim.file());
         }
     }
-    let bench = format!("G{}", HAZARDS.len() + 1);
-    nodes.push(node(&bench, "goal", "The numbers are those of the plan".to_owned(), Some("S1")));
+    let plan = format!("G{}", HAZARDS.len() + 1);
+    tree.goal(&plan, "The numbers are those of the plan".to_owned());
     for (name, text, file) in [
         ("plan", "the plan, fixed before the run", "plan/plan.json"),
         ("rows", "one row for every encounter", "result/runs.parquet"),
         ("summary", "every rate with its bounds", "result/summary.json"),
         ("report", "figures and findings", "result/report.html"),
     ] {
-        nodes.push(leaf(format!("Sn-{name}"), text.to_owned(), &bench, file));
+        tree.leaf(name, text.to_owned(), &plan, file);
     }
-    nodes
+    for file in sections.planner_files.iter().flat_map(|planner| &planner.files) {
+        tree.leaf(&file.path, "the planner itself".to_owned(), &plan, &file.path);
+    }
+    let bench = format!("G{}", HAZARDS.len() + 2);
+    tree.goal(&bench, "The bench would have seen it".to_owned());
+    if let Some(test) = &sections.self_test {
+        let text = format!("{} of {} bad planners caught", test.killed, test.killings.len());
+        tree.leaf("self-test", text, &bench, SELF_TEST);
+    }
+    if !sections.readings.is_empty() {
+        tree.leaf("readings", "how each check reads its rule".to_owned(), &bench, READINGS);
+    }
+    for document in &sections.documents {
+        tree.leaf(&document.path, document.title.clone(), &bench, &document.path);
+    }
+    tree.nodes
+}
+
+fn said(claim: &Claim) -> String {
+    if claim.n == 0 {
+        format!("{}: untested", claim.requirement)
+    } else {
+        format!("{}: broken in {} of {}", claim.requirement, claim.broken, claim.n)
+    }
+}
+
+/// What stands above the goals.
+fn top(input: &PackInput<'_>, sections: &Sections) -> Vec<Node> {
+    let plan = input.plan;
+    let g0 = format!("Planner {} avoids the hazards of collision avoidance", plan.planner.name);
+    let campaign = format!("campaign {}: {}", plan.campaign, plan.title);
+    let assumptions =
+        format!("assumptions A1 to A{} of section 20 hold", sections.assumptions.len());
+    let strategy = "over hazards, by counting encounters".to_owned();
+    vec![
+        node("G0", "goal", g0, None),
+        node("C1", "context", campaign, Some("G0")),
+        node("C2", "context", format!("rule set {}", plan.rules.name), Some("G0")),
+        node("A", "assumption", assumptions, Some("G0")),
+        node("S1", "strategy", strategy, Some("G0")),
+    ]
+}
+
+fn node(id: &str, kind: &'static str, text: String, parent: Option<&str>) -> Node {
+    let parent = parent.map(str::to_owned);
+    Node { id: id.to_owned(), kind, text, parent, file: None, sha256: None }
+}
+
+struct Tree<'a> {
+    nodes: Vec<Node>,
+    hashes: &'a BTreeMap<String, String>,
+}
+
+impl Tree<'_> {
+    fn goal(&mut self, id: &str, text: String) {
+        self.nodes.push(node(id, "goal", text, Some("S1")));
+    }
+
+    fn leaf(&mut self, name: &str, text: String, parent: &str, file: &str) {
+        self.nodes.push(Node {
+            file: Some(file.to_owned()),
+            sha256: self.hashes.get(file).cloned(),
+            ..node(&format!("Sn-{name}"), "solution", text, Some(parent))
+        });
+    }
 }
 
 const COLUMN: f64 = 196.0;
@@ -198,8 +223,7 @@ impl Art {
             let lines = wrapped(&node.text, LEAF_LETTERS).len() as f64;
             self.small(&label, x - 46.0, y - 14.0 + 12.0 * lines);
         } else {
-            let mark = if node.kind == "assumption" { " (A)" } else { "" };
-            let text = format!("{}{mark}: {}", node.id, node.text);
+            let text = format!("{}: {}", node.id, node.text);
             let letters = if node.kind == "strategy" { 23 } else { 29 };
             let lines = wrapped(&text, letters).len() as f64;
             self.words(&text, (x, y + 4.0 - 6.0 * (lines - 1.0)), letters, "middle");

@@ -104,7 +104,7 @@ fn ship(id: u64, hull: &HullOutline, start: &Motion, route: &[Waypoint], cruise_
     })
 }
 
-fn position(position_m: Vec2) -> Value {
+pub(crate) fn position(position_m: Vec2) -> Value {
     let (lat, lon) = place(position_m);
     json!({ "lat": lat, "lon": lon })
 }

@@ -27,6 +27,14 @@ pub enum EvidenceError {
     /// A template does not fit its data.
     #[error("fill the template of evidence.html: {0}")]
     Template(minijinja::Error),
+    /// An encounter could not be packed as a recording.
+    #[error("compress the recording of {id}: {source}")]
+    Recording {
+        /// The encounter.
+        id: String,
+        /// Why it did not work.
+        source: io::Error,
+    },
     /// The report could not be rendered.
     #[error("{0}")]
     Report(#[from] report::ReportError),

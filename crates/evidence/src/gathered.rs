@@ -11,6 +11,9 @@ use summary::{Findings, Tallies};
 /// Longer tables go into the pack as Parquet alone.
 const CSV_ROWS_MAX: u64 = 100_000;
 
+/// Rows behind each entry of the list of chunks.
+pub(crate) const CHUNK_ROWS: u64 = 4096;
+
 /// What the rows add up to.
 #[derive(Debug, Default)]
 pub struct Gathered {
@@ -18,6 +21,8 @@ pub struct Gathered {
     pub tallies: Tallies,
     /// BLAKE3 over the digests of all runs.
     pub root_digest: String,
+    /// The same over each [`CHUNK_ROWS`] of them, so that a damaged stretch can be told.
+    pub chunk_digests: Vec<String>,
     /// What went wrong, clustered.
     pub findings: Findings,
     /// Ids of the runs on which the judges disagree, as many as the summary lists.
@@ -44,6 +49,7 @@ impl Gathered {
         let short = rows.total() <= CSV_ROWS_MAX;
         let mut found = Self { csv: short.then(table::csv_head), ..Self::default() };
         let mut root = RootDigest::new();
+        let mut chunk = RootDigest::new();
         let source = plan.encounters_source()?;
         let mut wanted = (0..plan.strata.len() as u32)
             .flat_map(|stratum| (0..plan.encounters_per_stratum).map(move |j| (stratum, j)));
@@ -55,7 +61,14 @@ impl Gathered {
             let rejected = source.draw(stratum, j)?.rejected;
             found.tallies.stratum_mut(&row.id.stratum).add_draws(1 + rejected, rejected);
             root.push(row.digest);
+            chunk.push(row.digest);
             found.offer(&row);
+            if found.rows.is_multiple_of(CHUNK_ROWS) {
+                found.chunk_digests.push(std::mem::take(&mut chunk).hex());
+            }
+        }
+        if !found.rows.is_multiple_of(CHUNK_ROWS) {
+            found.chunk_digests.push(chunk.hex());
         }
         if let Some((stratum, j)) = wanted.next() {
             return Err(other_rows(format!("{} has no row", plan.id(stratum, j))));

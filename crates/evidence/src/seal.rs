@@ -5,9 +5,11 @@
 //! [`VOLATILE`] ones included, and is what a signature covers. Both are functions of the files
 //! alone, so a verifier makes them again and compares bytes.
 
+use crate::experiment::Experiment;
+use crate::gathered::Gathered;
 use crate::pack::{Files, pretty};
-use crate::sha256_hex;
 use crate::signature::SIGNATURE;
+use crate::{EvidenceError, sha256_hex};
 use campaign::Plan;
 use campaign::plan::Build;
 use serde::{Deserialize, Serialize};
@@ -18,9 +20,14 @@ use std::collections::BTreeMap;
 pub const MANIFEST: &str = "manifest.json";
 /// The statement, inside the pack.
 pub const STATEMENT: &str = "statement.intoto.json";
-/// The only files that may differ between two packs of one result: the wall clock of the
-/// campaign, the date that a browser writes into a PDF, and what hashes or signs these.
-pub const VOLATILE: [&str; 4] = ["result/timing.json", "evidence.pdf", STATEMENT, SIGNATURE];
+/// RO-Crate metadata, inside the pack.
+pub const RO_CRATE: &str = "ro-crate-metadata.json";
+/// The wall clock of the campaign, inside the pack.
+pub const TIMING: &str = "result/timing.json";
+/// The only files that may differ between two packs of one campaign: the wall clock of the
+/// campaign, its date in the RO-Crate metadata, the date that a browser writes into a PDF, and what
+/// hashes or signs these.
+pub const VOLATILE: [&str; 5] = [TIMING, "evidence.pdf", RO_CRATE, STATEMENT, SIGNATURE];
 
 /// `manifest.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +53,8 @@ pub struct Manifest {
     pub root_digest: String,
     /// Rows.
     pub encounters: u64,
+    /// What was run, and how it was to be counted.
+    pub experiment: Experiment,
     /// Files that may differ between two packs of one result.
     pub declared_to_differ: Vec<String>,
     /// SHA-256 of every other file.
@@ -59,12 +68,12 @@ pub struct Manifest {
 pub fn seal(
     files: &mut Files,
     plan: &Plan,
+    gathered: &Gathered,
     renderer: &str,
-    (root_digest, encounters): (&str, u64),
-) -> Result<(), crate::EvidenceError> {
+) -> Result<(), EvidenceError> {
     let stable = files.iter().filter(|(path, _)| !VOLATILE.contains(&path.as_str()));
     let manifest = Manifest {
-        schema: 1,
+        schema: 2,
         tool: "seatrial".to_owned(),
         build: plan.build.clone(),
         renderer: renderer.to_owned(),
@@ -72,8 +81,9 @@ pub fn seal(
         planner: plan.planner.name.clone(),
         seed: plan.seed,
         plan_hash: plan.hash()?,
-        root_digest: root_digest.to_owned(),
-        encounters,
+        root_digest: gathered.root_digest.clone(),
+        encounters: gathered.rows,
+        experiment: Experiment::new(plan, gathered, files)?,
         declared_to_differ: VOLATILE.map(str::to_owned).to_vec(),
         files_sha256: stable.map(|(path, bytes)| (path.clone(), sha256_hex(bytes))).collect(),
     };

@@ -44,7 +44,7 @@ fn pack() -> Files {
     };
     let stable = files.iter().filter(|(path, _)| !VOLATILE.contains(&path.as_str()));
     let manifest = Manifest {
-        schema: 1,
+        schema: 2,
         tool: "seatrial".into(),
         build,
         renderer: "r".into(),
@@ -54,6 +54,7 @@ fn pack() -> Files {
         plan_hash: "h".into(),
         root_digest: "d".into(),
         encounters: 3,
+        experiment: evidence::Experiment::default(),
         declared_to_differ: VOLATILE.map(str::to_owned).to_vec(),
         files_sha256: stable.map(|(path, bytes)| (path.clone(), sha256_hex(bytes))).collect(),
     };

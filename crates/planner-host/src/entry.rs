@@ -36,18 +36,46 @@ pub fn outside(name: &str) -> Option<Result<PlannerEntry, OptionsError>> {
     }))
 }
 
-/// The files that a planner from outside names and that exist: what an evidence pack must hold, or
-/// say that it does not.
-pub fn files(name: &str) -> Vec<PathBuf> {
+/// The files that a planner's owner brings, as its name writes them: a library, and the words of a
+/// command that are paths of files. A program that is found in `PATH`, such as an interpreter, is
+/// the machine's. None for a name of the registry.
+pub fn files(name: &str) -> Vec<String> {
     match parse(name) {
         Some(Ok(OutsideKind::Exec(argv))) => {
-            let program = argv.first().and_then(|program| find_program(program));
-            let arguments = argv.iter().skip(1).map(PathBuf::from);
-            program.into_iter().chain(arguments.filter(|path| path.is_file())).collect()
+            let named = |(i, word): &(usize, String)| {
+                (*i > 0 || word.contains('/')) && Path::new(word).is_file()
+            };
+            argv.into_iter().enumerate().filter(named).map(|(_, word)| word).collect()
         }
-        Some(Ok(OutsideKind::Lib(path))) => vec![path],
+        Some(Ok(OutsideKind::Lib(_))) => {
+            vec![name.strip_prefix("lib:").unwrap_or(name).to_owned()]
+        }
         Some(Err(_)) | None => Vec::new(),
     }
+}
+
+/// The entry of [`outside`] with some of its files taken from elsewhere: `place` gets a file as the
+/// name writes it, and says where it lies now. The name stays what it was.
+pub fn relocated(
+    name: &str,
+    place: &dyn Fn(&str) -> Option<PathBuf>,
+) -> Option<Result<PlannerEntry, OptionsError>> {
+    let moved = |word: &str| {
+        place(word).map_or_else(|| word.to_owned(), |path| path.to_string_lossy().into_owned())
+    };
+    if let Some(command) = name.strip_prefix("exec:") {
+        let Some(argv) = split(command) else { return outside(name) };
+        let argv: Vec<String> = argv.iter().map(|word| moved(word)).collect();
+        return Some(match argv.first().filter(|program| find_program(program).is_some()) {
+            Some(_) => Ok(exec_entry(name.to_owned(), argv)),
+            None => Err(bad(name, "its program cannot be run here")),
+        });
+    }
+    let path = name.strip_prefix("lib:")?;
+    Some(parse_lib(name, &moved(path)).map(|kind| match kind {
+        OutsideKind::Lib(path) => lib_entry(name.to_owned(), path),
+        OutsideKind::Exec(argv) => exec_entry(name.to_owned(), argv),
+    }))
 }
 
 fn parse(name: &str) -> Option<Result<OutsideKind, OptionsError>> {
@@ -193,6 +221,26 @@ mod tests {
             assert!(error.contains(word), "{name}: {error}");
         }
         assert!(outside("exec:sh -c true").unwrap().is_ok());
+    }
+
+    #[test]
+    fn an_owners_files_are_those_named_by_path_and_may_lie_elsewhere() {
+        let folder = std::env::temp_dir();
+        let script = folder.join(format!("seatrial-entry-{}.sh", std::process::id()));
+        std::fs::write(&script, "true").unwrap();
+        let word = script.display().to_string();
+        let name = format!("exec:sh {word} --flag");
+        assert_eq!(files(&name), [word.clone()]);
+        assert_eq!(files(&format!("lib:{word}")), [word.clone()]);
+        assert_eq!(files("exec:sh --flag"), Vec::<String>::new());
+        assert_eq!(files("hold-course"), Vec::<String>::new());
+        std::fs::remove_file(&script).unwrap();
+        // the interpreter is asked for as before, the script where it is said to lie
+        let entry = relocated(&name, &|file| (file == word).then(|| "/elsewhere/x.sh".into()));
+        assert_eq!(entry.unwrap().unwrap().name, name);
+        assert!(relocated("exec:./gone", &|_| Some("/elsewhere/gone".into())).unwrap().is_err());
+        assert!(relocated("lib:./gone.so", &|_| None).unwrap().is_err());
+        assert!(relocated("hold-course", &|_| None).is_none());
     }
 
     #[test]

@@ -19,4 +19,4 @@ pub mod schema;
 mod tail;
 pub mod wire;
 
-pub use entry::{OutsideKind, files, outside};
+pub use entry::{OutsideKind, files, outside, relocated};

@@ -38,5 +38,5 @@ pub use error::ReportError;
 pub use figure::{DataTable, Figure};
 pub use input::{Card, Case, Compared, Cost, Extra, Found, ReportInput};
 pub use manoeuvres::{Trials, manoeuvres_picture};
-pub use page::css;
+pub use page::{css, not_claimed, verdict_sentences};
 pub use write::{Rendered, case_picture, draw_case, render, write, write_comparison};

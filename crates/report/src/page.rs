@@ -7,7 +7,7 @@ use crate::group::{Group, all, groups};
 use crate::input::{Case, ReportInput};
 use crate::number::{NONE, count, fixed, per_cent, per_cent_or_none};
 use crate::page_tables::{avoiding, classes, outcomes};
-use crate::wording::{Verdict, encounters, not_claimed, verdict};
+use crate::wording::{self, Verdict, encounters, verdict};
 use crate::{ReportError, case_figure, figure_cpa, figure_map, figure_polar, figure_rates};
 use crate::{figure_times, font, player};
 use record::{Check, DistanceKind, Status};
@@ -58,7 +58,7 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
         },
         verdict: verdict(&whole.summary),
         cards: cards(&whole.summary),
-        not_claimed: not_claimed(input, &whole),
+        not_claimed: wording::not_claimed(input, &whole),
         strata: strata(input, &whole),
         figures: general.iter().map(inline).collect(),
         findings: findings::lines(input, &whole.tally),
@@ -72,6 +72,16 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
         resolved: &card.resolved,
     };
     fill("report.html", include_str!("../templates/report.html"), &view)
+}
+
+/// The first sentences of the page: what was found.
+pub fn verdict_sentences(input: &ReportInput) -> Vec<String> {
+    verdict(&all(input).summary).sentences
+}
+
+/// What the page does not claim, sentence by sentence.
+pub fn not_claimed(input: &ReportInput) -> Vec<String> {
+    wording::not_claimed(input, &all(input))
 }
 
 /// Fills a template whose name ends in `.html`, which switches the escaping on.

@@ -19,3 +19,11 @@ pub(crate) fn build() -> Build {
 pub(crate) const RENDERER: &str = env!("SEATRIAL_RENDERER");
 /// The libraries that this binary was built from.
 pub(crate) const CARGO_LOCK: &str = include_str!("../../../Cargo.lock");
+
+/// How this binary was built, as the JSON of [`evidence::BUILD`].
+pub(crate) const BUILT: &str = include_str!(concat!(env!("OUT_DIR"), "/built.json"));
+/// How each check reads its rule, as the JSON of [`evidence::READINGS`].
+pub(crate) const READINGS: &str = include_str!(concat!(env!("OUT_DIR"), "/readings.json"));
+
+// `MEASURED`: the documents of `docs/measured`, by name.
+include!(concat!(env!("OUT_DIR"), "/bench.rs"));

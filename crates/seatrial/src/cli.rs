@@ -107,6 +107,12 @@ pub(crate) enum Command {
         /// Secret key of `minisign`, which must be installed
         #[arg(long, value_name = "FILE")]
         key: Option<PathBuf>,
+        /// The gate's self-test, as `gate --self-test` writes it [default: the tool's own]
+        #[arg(long, value_name = "FILE")]
+        self_test: Option<PathBuf>,
+        /// The pack before this one, to show what changed
+        #[arg(long, value_name = "PACK")]
+        previous: Option<PathBuf>,
         /// Print no PDF, even if there is a browser
         #[arg(long)]
         no_pdf: bool,
@@ -125,6 +131,9 @@ pub(crate) enum Command {
         /// Seed of the sample [default: fresh, and printed]
         #[arg(long, value_name = "N")]
         sample_seed: Option<u64>,
+        /// Do not start a planner from outside that is in the pack
+        #[arg(long)]
+        no_planner: bool,
     },
     /// Judge a finished campaign again, under another rule set
     ///

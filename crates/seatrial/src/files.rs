@@ -1,6 +1,7 @@
 //! Files appear whole or not at all.
 
 use campaign::{Error, part};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,4 +23,13 @@ pub(crate) fn below(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     }
     found.sort();
     Ok(found)
+}
+
+/// SHA-256 of files, by the paths that are given.
+pub(crate) fn hashes(paths: Vec<String>) -> Result<BTreeMap<String, String>, Error> {
+    let hash = |path: String| {
+        let bytes = fs::read(&path).map_err(Error::io("read", Path::new(&path)))?;
+        Ok((path, evidence::sha256_hex(&bytes)))
+    };
+    paths.into_iter().map(hash).collect()
 }

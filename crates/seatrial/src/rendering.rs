@@ -47,14 +47,7 @@ impl Rendering {
         }
         let findings = findings.into_iter().map(|f| shown.found(f)).collect::<Result<_, _>>()?;
         let cases = ids.iter().map(|id| shown.case(id)).collect::<Result<_, _>>()?;
-        let head = SummaryHead {
-            campaign: plan.campaign.clone(),
-            planner: plan.planner.name.clone(),
-            seed: plan.seed,
-            root_digest,
-        };
-        let summary = Summary::new(head, &tallies, plan.strata.iter().map(String::as_str))
-            .with_disagreements(disagreements.to_vec());
+        let summary = summary(plan, &tallies, root_digest, disagreements);
         let scenes = scenes(plan, &summary);
         let scenes = scenes.iter().map(|id| shown.case(id)).collect::<Result<_, _>>()?;
         Ok(Self { card: card(plan)?, summary, tallies, findings, cases, scenes })
@@ -71,6 +64,23 @@ impl Rendering {
             scenes: &self.scenes,
         }
     }
+}
+
+/// `summary.json` of what the rows add up to.
+pub(crate) fn summary(
+    plan: &Plan,
+    tallies: &Tallies,
+    root_digest: String,
+    disagreements: &[String],
+) -> Summary {
+    let head = SummaryHead {
+        campaign: plan.campaign.clone(),
+        planner: plan.planner.name.clone(),
+        seed: plan.seed,
+        root_digest,
+    };
+    Summary::new(head, tallies, plan.strata.iter().map(String::as_str))
+        .with_disagreements(disagreements.to_vec())
 }
 
 /// Whether a run with this outcome takes its process with it, and so is not run again here.

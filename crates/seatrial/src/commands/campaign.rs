@@ -54,13 +54,16 @@ fn plans(args: &CampaignArgs, registry: Registry) -> Result<(Vec<Plan>, Registry
         encounters: args.encounters,
         seed: args.seed,
     };
-    let plans = file.resolve(
+    let mut plans = file.resolve(
         &overrides,
         args.situations.as_deref(),
         &registry,
         &embedded::rules_text,
         &build::build(),
     )?;
+    for plan in &mut plans {
+        plan.planner.files_sha256 = crate::files::hashes(planner_host::files(&plan.planner.name))?;
+    }
     Ok((plans, registry))
 }
 

@@ -12,31 +12,33 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Files of a result that are taken as they are; everything else is made from the rows.
-const TAKEN: [&str; 3] = ["runs.parquet", "manifest.json", "timing.json"];
+/// What was asked for.
+#[derive(Debug)]
+pub(super) struct Wanted<'a> {
+    pub(super) dir: &'a Path,
+    pub(super) out: &'a Path,
+    /// Secret key of `minisign`.
+    pub(super) key: Option<&'a Path>,
+    /// The gate's self-test instead of the tool's own.
+    pub(super) self_test: Option<&'a Path>,
+    /// The pack before.
+    pub(super) previous: Option<&'a Path>,
+    pub(super) pdf: bool,
+}
 
-pub(super) fn run(
-    dir: &Path,
-    out: &Path,
-    key: Option<&Path>,
-    pdf: bool,
-    registry: Registry,
-) -> Result<Ended, Error> {
+pub(super) fn run(wanted: &Wanted<'_>, registry: Registry) -> Result<Ended, Error> {
+    let out = wanted.out;
     if out.exists() {
         return Err(Error::input(format!(
             "{} is there already; a pack is written to a folder of its own",
             out.display()
         )));
     }
-    let (folder, plan) = Folder::existing(dir)?;
+    let (folder, plan) = Folder::existing(wanted.dir)?;
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
     unchanged(folder.path())?;
-    let mut given = Files::new();
-    for name in TAKEN {
-        let path = folder.path().join(name);
-        let bytes = fs::read(&path).map_err(Error::io("read", &path))?;
-        given.insert(format!("{RESULT}/{name}"), bytes);
-    }
+    let given =
+        super::evidence_given::gather(folder.path(), &plan, wanted.self_test, wanted.previous)?;
     let pack = make(&plan, &registry, &folder.path().join("runs.parquet"), &given)?;
     same_report(folder.path(), &pack)?;
     for (path, bytes) in &pack {
@@ -46,18 +48,18 @@ pub(super) fn run(
         }
         files::write(&path, bytes)?;
     }
-    if pdf {
+    if wanted.pdf {
         print_pdf(out)?;
     }
     state(out)?;
-    if let Some(key) = key {
+    if let Some(key) = wanted.key {
         evidence::sign(&out.join(STATEMENT), key).map_err(failed)?;
     }
     say!("pack: {} ({} files)", out.display(), files::below(out)?.len());
     Ok(Ended::Done)
 }
 
-/// Every file of a pack but what is volatile, sealed by its manifest.
+/// Every file of a pack but the PDF, the statement and its signature, sealed by its manifest.
 pub(super) fn make(
     plan: &Plan,
     registry: &Registry,
@@ -73,11 +75,7 @@ pub(super) fn make(
         (&gathered.cases, &gathered.findings, &gathered.disagreements),
     )?;
     // what changes from run to run must not get into what does not
-    let stable: Files = given
-        .iter()
-        .filter(|(path, _)| !volatile(path))
-        .map(|(p, b)| (p.clone(), b.clone()))
-        .collect();
+    let stable = super::evidence_given::stable(given);
     let input = PackInput {
         plan,
         gathered: &gathered,
@@ -87,17 +85,13 @@ pub(super) fn make(
     };
     let mut pack = evidence::derive(&input).map_err(failed)?;
     pack.extend(given.clone());
-    let sums = (gathered.root_digest.as_str(), gathered.rows);
-    evidence::seal(&mut pack, plan, build::RENDERER, sums).map_err(failed)?;
+    evidence::seal(&mut pack, plan, &gathered, build::RENDERER).map_err(failed)?;
+    evidence::ro_crate(&mut pack, plan).map_err(failed)?;
     Ok(pack)
 }
 
 pub(super) fn failed(error: EvidenceError) -> Error {
     Error::input(format!("failed to {error}"))
-}
-
-fn volatile(path: &str) -> bool {
-    evidence::VOLATILE.contains(&path)
 }
 
 /// The files of a result against the hashes in its manifest.

@@ -8,6 +8,7 @@ mod conformance;
 mod corpus;
 mod engine;
 mod evidence;
+mod evidence_given;
 mod finish;
 mod fit_ais;
 mod gate;
@@ -27,6 +28,8 @@ mod slurm;
 mod speed;
 mod vectors;
 mod verify;
+mod verify_again;
+mod verify_planner;
 
 pub(crate) use judge::JudgedAgain;
 
@@ -47,12 +50,22 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),
-        Command::Evidence { dir, out, key, no_pdf } => {
-            evidence::run(&dir, &out, key.as_deref(), !no_pdf, registry)
+        Command::Evidence { dir, out, key, self_test, previous, no_pdf } => {
+            let wanted = evidence::Wanted {
+                dir: &dir,
+                out: &out,
+                key: key.as_deref(),
+                self_test: self_test.as_deref(),
+                previous: previous.as_deref(),
+                pdf: !no_pdf,
+            };
+            evidence::run(&wanted, registry)
         }
-        Command::Verify { pack, key, sample, sample_seed } => {
+        Command::Verify { pack, key, sample, sample_seed, no_planner } => {
             let key = key.as_deref();
-            verify::run(&verify::Wanted { pack: &pack, key, sample, seed: sample_seed }, registry)
+            let planner = !no_planner;
+            let wanted = verify::Wanted { pack: &pack, key, sample, seed: sample_seed, planner };
+            verify::run(&wanted, registry)
         }
         Command::Judge(args) => judge::run(&args, registry),
         Command::Missing { dir, shards, of } => shards::missing(&dir, &shards, of),
