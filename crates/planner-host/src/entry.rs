@@ -230,8 +230,8 @@ mod tests {
         std::fs::write(&script, "true").unwrap();
         let word = script.display().to_string();
         let name = format!("exec:sh {word} --flag");
-        assert_eq!(files(&name), [word.clone()]);
-        assert_eq!(files(&format!("lib:{word}")), [word.clone()]);
+        assert_eq!(files(&name), std::slice::from_ref(&word));
+        assert_eq!(files(&format!("lib:{word}")), std::slice::from_ref(&word));
         assert_eq!(files("exec:sh --flag"), Vec::<String>::new());
         assert_eq!(files("hold-course"), Vec::<String>::new());
         std::fs::remove_file(&script).unwrap();
