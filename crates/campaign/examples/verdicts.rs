@@ -1,6 +1,7 @@
 //! Everything that both judges say of single encounters, with own ship's heading.
 //!
-//! `cargo run --release -p campaign --example verdicts -- campaigns/laboratory.toml zhuang 9 head_on/8`
+//! `cargo run --release -p campaign --example verdicts -- campaigns/laboratory.toml zhuang 9 ID`,
+//! with an ID such as `head_on/8`.
 #![forbid(unsafe_code)]
 
 mod common;

@@ -1,10 +1,10 @@
 //! `speed`: encounters per second, the floor under them, and the share of each stage.
 //!
 //! Each encounter is 20 simulated minutes of two 3-DOF vessels under the seed planner with every
-//! verdict, in the laboratory. The floor integrates the same vessels at the same step in a bare loop:
-//! no planner, no hulls, no verdicts. The same encounters are then run in the default world (sensors,
-//! weather, intents) and compared with the laboratory, turn about. Ratios come from one run;
-//! absolute numbers depend on the machine.
+//! verdict, in the laboratory. The floor integrates the same vessels at the same step in a bare
+//! loop: no planner, no hulls, no verdicts. The same encounters are then run in the default world
+//! (sensors, weather, intents) and compared with the laboratory, turn about. Ratios come from one
+//! run; absolute numbers depend on the machine.
 
 use crate::embedded;
 use crate::exit::Ended;
