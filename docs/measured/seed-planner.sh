@@ -27,7 +27,7 @@ repaired=(--planner zhuang-latched --planner zhuang-corrected)
 
 campaign paper paper
 for world in laboratory quick; do
-  campaign "$world" "$world" "${readings[@]}" --planner zhuang-corrected
+  campaign "$world" "$world" "${readings[@]}" --planner zhuang-corrected --encounters 1000
   campaign "corrected-$world" "$world" --planner zhuang-corrected --encounters 11112
 done
 for world in paper-random paper-random-600; do
@@ -38,6 +38,9 @@ campaign altering campaigns/findings-altering.toml --planner zhuang
 campaign boundary campaigns/findings-boundary.toml --planner zhuang "${repaired[@]}"
 campaign close campaigns/findings-close.toml "${printed[@]}" --planner zhuang "${repaired[@]}"
 campaign late campaigns/findings-late.toml --planner zhuang "${repaired[@]}"
+sed 's/yaw_rate_deg_s_max = 2.0/yaw_rate_deg_s_max = 60.0/' campaigns/findings-late.toml \
+  > "$results/nimble.toml"
+campaign nimble "$results/nimble.toml" --planner zhuang "${repaired[@]}"
 changed quick 'radius_factor = 1.3' > "$results/margin.toml"
 campaign margin "$results/margin.toml" "${repaired[@]}"
 changed findings-several 'reference = "most-urgent"' > "$results/urgent.toml"

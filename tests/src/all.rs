@@ -12,4 +12,5 @@ mod negative_controls;
 mod refusals;
 mod same_bits;
 mod shards;
+mod starred_findings;
 mod support;
