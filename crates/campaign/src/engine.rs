@@ -6,10 +6,10 @@
 
 use crate::inflight::InFlight;
 use crate::part::{self, PartKey};
+use crate::supervisor::Lost;
 use crate::worker::{Shop, Worker, run_part};
 use crate::{Error, Folder, Plan, supervisor};
 use planner_api::Registry;
-use record::Outcome;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
@@ -35,7 +35,7 @@ pub fn run(
     threads: usize,
 ) -> Result<(), Error> {
     let lost = read_lost(folder)?;
-    let lost = |stratum, j| lost.get(&(stratum, j)).copied();
+    let lost = |stratum, j| lost.get(&(stratum, j));
     let inflight = InFlight::create(&folder.inflight(), threads)?;
     let shop = Shop::new(plan, registry)?;
     let next = AtomicUsize::new(0);
@@ -138,15 +138,22 @@ pub fn quiet_planner_panics() {
     }));
 }
 
+/// What an engine says last when it ends of its own will.
+pub(crate) const FAREWELL: &str = "engine ends";
+
+/// Says so. A library that calls `exit` would otherwise pass for an engine that has done its work.
+pub fn say_farewell() {
+    // a supervisor that no longer listens is gone
+    drop(std::io::stdout().lock().write_all(format!("\n{FAREWELL}\n").as_bytes()));
+}
+
 fn report_part(key: PartKey, rows: usize) {
     let line = format!("part {} {} {rows}\n", key.stratum, key.piece);
     // a supervisor that no longer listens is gone; the watch on standard input ends us then
     drop(std::io::stdout().lock().write_all(line.as_bytes()));
 }
 
-fn read_lost(folder: &Folder) -> Result<BTreeMap<(u32, u64), Outcome>, Error> {
-    Ok(supervisor::read_lost(folder)?
-        .into_iter()
-        .map(|lost| ((lost.stratum, lost.j), lost.outcome))
-        .collect())
+fn read_lost(folder: &Folder) -> Result<BTreeMap<(u32, u64), Lost>, Error> {
+    let lost = supervisor::read_lost(folder)?;
+    Ok(lost.into_iter().map(|lost| ((lost.stratum, lost.j), lost)).collect())
 }

@@ -90,8 +90,7 @@ impl Judged {
             | Outcome::PlannerCrashed
             | Outcome::PlannerHung
             | Outcome::PlannerProtocol => {
-                let planner_detail = trace.planner_detail.clone();
-                RunRow { planner_detail, ..row::of_lost_run(encounter, trace.outcome) }
+                row::of_lost_run(encounter, trace.outcome, trace.planner_detail.clone())
             }
             _ => {
                 let digest = Digest::of_trace(trace);

@@ -41,11 +41,14 @@ pub struct Stored {
     pub outcome: Outcome,
     /// Digest of its trace.
     pub digest: Digest,
+    /// How the planner failed, in words.
+    pub planner_detail: Option<String>,
 }
 
 impl From<RunRow> for Stored {
     fn from(row: RunRow) -> Self {
-        Self { id: row.id, outcome: row.outcome, digest: row.digest }
+        let RunRow { id, outcome, digest, planner_detail, .. } = row;
+        Self { id, outcome, digest, planner_detail }
     }
 }
 
@@ -171,10 +174,18 @@ impl<'a> Bench<'a> {
         })?;
         if matches!(stored.outcome, Outcome::PlannerHung | Outcome::PlannerCrashed) {
             let (encounter, rejected) = self.shop.draw(stratum, stored.id.j)?;
-            let row = row::of_lost_run(&encounter, stored.outcome);
+            let detail = stored.planner_detail.clone();
+            let row = row::of_lost_run(&encounter, stored.outcome, detail);
             return Ok(Again { rows: vec![row; self.judges.len()], rejected });
         }
         let run = self.worker.run(stratum, stored.id.j, &self.beat)?;
+        if run.row.outcome.is_wall_clock() {
+            return Err(Error::Incomplete(format!(
+                "{} was ended by a limit on the wall clock now and not when it was stored: the \
+                 machine is too busy for this planner; judge again when it is not",
+                stored.id
+            )));
+        }
         if run.row.digest != stored.digest {
             return Err(Error::Fault(format!(
                 "{} gives digest {} now and {} is stored: this binary, or its planner, is not the \

@@ -62,10 +62,11 @@ pub fn of_run(encounter: &Encounter, trace: &Trace, digest: Digest, judged: &Jud
     row
 }
 
-/// The row of a run that took its process with it, or could not be run.
-pub fn of_lost_run(encounter: &Encounter, outcome: Outcome) -> RunRow {
+/// The row of a run that took its process with it, or could not be run; `detail` says how.
+pub fn of_lost_run(encounter: &Encounter, outcome: Outcome, detail: Option<String>) -> RunRow {
     let mut row = start(encounter, outcome, Digest::of_lost_run(&encounter.id, outcome));
     row.unknown = true;
+    row.planner_detail = detail;
     row
 }
 

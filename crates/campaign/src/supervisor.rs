@@ -5,17 +5,21 @@
 //! in flight alone, notes the guilty, and starts the engine again; the guilty encounter then gets
 //! a row made from its id and outcome alone.
 
-use crate::engine::EXIT_HUNG;
+use crate::engine::{EXIT_HUNG, FAREWELL};
 use crate::inflight::{InFlight, Suspect};
 use crate::part::{PART_ENCOUNTERS, PartKey};
 use crate::{Error, Folder, Plan};
+use planner_host::tail::Tail;
 use record::Outcome;
 use serde::{Deserialize, Serialize};
 use std::fs;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::os::unix::process::ExitStatusExt as _;
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+use std::time::Duration;
 
 /// Engines that die without anybody being guilty, before the harness itself is suspected.
 const UNEXPLAINED_DEATHS_MAX: u32 = 3;
@@ -29,6 +33,8 @@ pub struct Lost {
     pub j: u64,
     /// How the process ended.
     pub outcome: Outcome,
+    /// The same in words, and the last lines it said.
+    pub detail: String,
 }
 
 /// How to start an engine process of this binary, and whom to tell of progress.
@@ -61,13 +67,12 @@ impl Supervisor<'_> {
         (self.progress)(done);
         while keys.iter().any(|&key| !is_there(folder, key)) {
             self.stop_if_interrupted(folder)?;
-            let ended = self.run_engine(folder, keys)?;
+            let (ended, of_its_own) = self.run_engine(folder, keys)?;
             self.stop_if_interrupted(folder)?;
-            if ended.success() {
-                continue;
-            }
-            if let Some(code @ 2..=4) = ended.code() {
-                return Err(self.engine_error(code));
+            match ended.code() {
+                Some(0) if of_its_own => continue,
+                Some(code @ 2..=4) if of_its_own => return Err(self.engine_error(code)),
+                _ => {}
             }
             let guilty = self.find_guilty(plan, folder)?;
             if guilty.is_empty() {
@@ -92,7 +97,8 @@ impl Supervisor<'_> {
         command
     }
 
-    fn run_engine(&self, folder: &Folder, keys: &[PartKey]) -> Result<ExitStatus, Error> {
+    /// How an engine ended, and whether of its own will.
+    fn run_engine(&self, folder: &Folder, keys: &[PartKey]) -> Result<(ExitStatus, bool), Error> {
         let list = folder.path().join("state").join("keys.json");
         let missing: Vec<PartKey> =
             keys.iter().copied().filter(|&key| !is_there(folder, key)).collect();
@@ -105,21 +111,26 @@ impl Supervisor<'_> {
             .arg(self.threads.to_string())
             .spawn()
             .map_err(Error::io("start", &self.program))?;
-        self.listen(&mut child);
-        child.wait().map_err(Error::io("wait for", &self.program))
+        let of_its_own = self.listen(&mut child);
+        let ended = child.wait().map_err(Error::io("wait for", &self.program))?;
+        Ok((ended, of_its_own))
     }
 
-    /// Reads the engine's lines until it closes them.
-    fn listen(&self, child: &mut Child) {
-        let Some(stdout) = child.stdout.take() else { return };
+    /// Reads the engine's lines until it closes them; whether it said that it ends. Libraries may
+    /// write lines of their own between them.
+    fn listen(&self, child: &mut Child) -> bool {
+        let Some(stdout) = child.stdout.take() else { return false };
+        let mut of_its_own = false;
         for line in BufReader::new(stdout).lines().map_while(Result::ok) {
-            let rows = line.rsplit(' ').next().and_then(|n| n.parse().ok()).unwrap_or(0);
-            (self.progress)(rows);
+            of_its_own |= line == FAREWELL;
+            let part = line.strip_prefix("part ").and_then(|part| part.rsplit(' ').next());
+            (self.progress)(part.and_then(|rows| rows.parse().ok()).unwrap_or(0));
             if self.interrupted.load(Ordering::Relaxed) {
                 // its parts are whole files: nothing is lost but what was in flight
                 drop(child.kill());
             }
         }
+        of_its_own
     }
 
     /// Runs each suspect alone.
@@ -127,35 +138,52 @@ impl Supervisor<'_> {
         let mut guilty = Vec::new();
         for (stratum, j) in InFlight::suspects(&folder.inflight())? {
             self.stop_if_interrupted(folder)?;
-            if let Some(outcome) = self.trial(folder, (stratum, j))? {
+            let limit_s = plan.run.planner_hang_limit_s;
+            if let Some((outcome, detail)) = self.trial(folder, (stratum, j), limit_s)? {
                 assert!((stratum as usize) < plan.strata.len(), "slot names stratum {stratum}");
-                guilty.push(Lost { stratum, j, outcome });
+                guilty.push(Lost { stratum, j, outcome, detail });
             }
         }
         Ok(guilty)
     }
 
-    fn trial(&self, folder: &Folder, (stratum, j): Suspect) -> Result<Option<Outcome>, Error> {
-        let ended = self
+    /// How an encounter ends that is run alone, in words too; `None` where it ends well.
+    fn trial(
+        &self,
+        folder: &Folder,
+        (stratum, j): Suspect,
+        limit_s: f64,
+    ) -> Result<Option<(Outcome, String)>, Error> {
+        let mut child = self
             .engine(folder)
             .arg("--suspect")
             .arg(format!("{stratum}/{j}"))
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
             .spawn()
-            .and_then(|mut child| {
-                // `wait` closes the child's standard input, which tells it that we are gone
-                let open = child.stdin.take();
-                let ended = child.wait();
-                drop(open);
-                ended
-            })
             .map_err(Error::io("start", &self.program))?;
+        let farewell = child.stdout.take().map(last_words);
+        let said = child.stderr.take().map(last_words);
+        // `wait` closes the child's standard input, which tells it that we are gone
+        let open = child.stdin.take();
+        let ended = child.wait().map_err(Error::io("wait for", &self.program))?;
+        drop(open);
+        let hear = |words: Option<mpsc::Receiver<String>>| {
+            words.and_then(|words| words.recv_timeout(LAST_WORDS).ok()).unwrap_or_default()
+        };
+        let of_its_own = hear(farewell).contains(FAREWELL);
+        let said = || hear(said);
         Ok(match ended.code() {
-            Some(0) => None,
-            Some(code) if code == i32::from(EXIT_HUNG) => Some(Outcome::PlannerHung),
-            Some(code @ 2..=4) => return Err(self.engine_error(code)),
-            _ => Some(Outcome::PlannerCrashed),
+            Some(0) if of_its_own => None,
+            Some(code) if code == i32::from(EXIT_HUNG) => {
+                let how = format!("no answer within {limit_s} s");
+                Some((Outcome::PlannerHung, how + &said()))
+            }
+            Some(code @ 2..=4) if of_its_own => return Err(self.engine_error(code)),
+            _ => {
+                let how = format!("it ended its process ({})", shown(ended));
+                Some((Outcome::PlannerCrashed, how + &said()))
+            }
         })
     }
 
@@ -178,6 +206,50 @@ impl Supervisor<'_> {
         }
         Ok(())
     }
+}
+
+/// How long to wait for the end of standard error once the process has ended: what the planner has
+/// started may hold it open.
+const LAST_WORDS: Duration = Duration::from_millis(300);
+
+/// The last lines of a stream, once it has ended.
+fn last_words(mut stream: impl Read + Send + 'static) -> mpsc::Receiver<String> {
+    let (tell, hear) = mpsc::channel();
+    std::thread::spawn(move || {
+        let (mut tail, mut chunk) = (Tail::default(), vec![0; 1 << 14]);
+        while let Ok(count @ 1..) = stream.read(&mut chunk) {
+            tail.push(&chunk[..count]);
+        }
+        // nobody listens any more where the stream outlived the process
+        drop(tell.send(without_thread_numbers(&tail.said())));
+    });
+    hear
+}
+
+/// `thread 'main' (4711) has overflowed its stack` without the number, which differs in every run
+/// and would make two tables differ.
+fn without_thread_numbers(text: &str) -> String {
+    let mut parts = text.split("' (");
+    let mut clean = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        match part.split_once(')') {
+            Some((number, rest)) if number.bytes().all(|c| c.is_ascii_digit()) => {
+                clean.push('\'');
+                clean.push_str(rest);
+            }
+            _ => {
+                clean.push_str("' (");
+                clean.push_str(part);
+            }
+        }
+    }
+    clean
+}
+
+/// Without whether a core was dumped, which is a setting of the machine.
+fn shown(ended: ExitStatus) -> String {
+    let status = ended.signal().map_or(ended, |signal| ExitStatus::from_raw(signal));
+    status.to_string()
 }
 
 /// Whether a part is there, whole.
@@ -212,4 +284,21 @@ fn note_lost(folder: &Folder, lost: &Lost) -> Result<(), Error> {
         .open(&path)
         .and_then(|mut file| file.write_all(format!("{line}\n").as_bytes()))
         .map_err(Error::io("write", &path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table must not depend on numbers of threads or on whether the machine keeps cores.
+    #[test]
+    fn what_a_lost_process_said_is_the_same_in_every_run() {
+        let said = "thread 'main' (4711) has overflowed its stack\nf('a' (b) 'c' (12)";
+        let clean = "thread 'main' has overflowed its stack\nf('a' (b) 'c'";
+        assert_eq!(without_thread_numbers(said), clean);
+        assert_eq!(without_thread_numbers("nothing"), "nothing");
+        let with_core = ExitStatus::from_raw(11 | 0x80);
+        assert_eq!(shown(with_core), "signal: 11 (SIGSEGV)");
+        assert_eq!(shown(ExitStatus::from_raw(3 << 8)), "exit status: 3");
+    }
 }

@@ -70,8 +70,29 @@ pub enum SetIntent {
     HoldCourse,
     /// Alters once, whatever own ship does.
     Alter(SetAlter),
+    /// Sails through these places, with a speed towards each, whatever own ship does, and goes on
+    /// behind the last.
+    Track(Vec<PlaceAt>),
     /// Runs a planner of the registry.
     Planner(String),
+}
+
+/// A place of a track.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceAt {
+    /// Metres north.
+    pub north_m: Option<f64>,
+    /// Metres east.
+    pub east_m: Option<f64>,
+    /// Nautical miles north.
+    pub north_nm: Option<f64>,
+    /// Nautical miles east.
+    pub east_nm: Option<f64>,
+    /// Speed towards it, m/s.
+    pub speed_mps: Option<f64>,
+    /// Speed towards it, knots.
+    pub speed_kn: Option<f64>,
 }
 
 /// One alteration of a target.
@@ -368,6 +389,7 @@ impl TargetAt {
         let intent = match self.intent.as_ref().unwrap_or(&set.intent) {
             SetIntent::HoldCourse => Intent::HoldCourse,
             SetIntent::Planner(name) => Intent::Planner(name.clone()),
+            SetIntent::Track(places) => Intent::Track(track(units, key, places)?),
             SetIntent::Alter(alter) => Intent::Alter {
                 at_s: alter.at_s,
                 course_rad: wrap(deg(alter.course_deg)),
@@ -382,6 +404,21 @@ impl TargetAt {
             intent,
         })
     }
+}
+
+fn track(units: Units, key: &str, places: &[PlaceAt]) -> Result<Vec<Waypoint>, Error> {
+    require(
+        !places.is_empty(),
+        || format!("{key}.intent.track"),
+        || "is empty; it needs at least one place".to_owned(),
+    )?;
+    let waypoint = |(i, at): (usize, &PlaceAt)| {
+        let key = format!("{key}.intent.track.{}", i + 1);
+        let position_m = units.place(&key, [at.north_m, at.east_m], [at.north_nm, at.east_nm])?;
+        let speed_mps = Some(units.speed(&key, at.speed_mps, at.speed_kn)?);
+        Ok(Waypoint { position_m, speed_mps })
+    };
+    places.iter().enumerate().map(waypoint).collect()
 }
 
 fn motion(

@@ -163,7 +163,8 @@ pub struct GeometrySpec {
     pub head_on_reciprocal_deg: f64,
 }
 
-/// One stratum: a class, or the border between two.
+/// One stratum: a class, the border between two, or neither: whatever the laws give, as in a
+/// traffic that was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StratumSpec {
@@ -328,22 +329,19 @@ impl StratumSpec {
         )?;
         let key = |name: &str| format!("model.stratum.{}.{name}", self.name);
         match (self.class, self.boundary, self.within_deg) {
-            (Some(_), None, None) => {}
+            (_, None, None) => {}
             (None, Some(_), Some(within_deg)) => angle(&key("within_deg"), within_deg, 45.0)?,
             (None, Some(_), None) => {
                 return Err(Error::spec(key("within_deg"), "is missing beside `boundary`"));
             }
-            (Some(_), None, Some(_)) => {
+            (_, None, Some(_)) => {
                 return Err(Error::spec(
                     key("within_deg"),
                     "belongs to `boundary`, not to `class`",
                 ));
             }
-            _ => {
-                return Err(Error::spec(
-                    key("class"),
-                    "or `boundary` is needed, and not both of them",
-                ));
+            (Some(_), Some(_), _) => {
+                return Err(Error::spec(key("class"), "and `boundary` exclude each other"));
             }
         }
         let further = self.also.as_ref().map_or(0, Vec::len);

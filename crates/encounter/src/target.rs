@@ -26,7 +26,7 @@ pub(crate) struct Request<'a> {
     stratum: &'a StratumSpec,
     /// From 1; also the ship's number in the random streams.
     number: u8,
-    /// The class; absent for the first target beside a border.
+    /// The class; absent for the first target beside a border, or of any class.
     class: Option<EncounterClass>,
     laws: Laws<'a>,
 }
@@ -132,7 +132,7 @@ impl<'a> Request<'a> {
                 within_rad: deg(within_deg),
                 side: if coin() { Side::First } else { Side::Second },
             },
-            _ => unreachable!("a validated stratum has a class or a border"),
+            (None, ..) => Wanted::Any,
         }
     }
 
@@ -175,6 +175,7 @@ impl<'a> Request<'a> {
             )
         } else {
             let what = match given.wanted {
+                Wanted::Any => "an encounter".to_owned(),
                 Wanted::Class(class) => format!("the class {}", class.name()),
                 Wanted::Beside { border, side, .. } => {
                     format!("the {side:?} side of the border {border:?}")

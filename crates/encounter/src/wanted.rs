@@ -37,6 +37,8 @@ pub enum Side {
 /// What one encounter must be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wanted {
+    /// Whatever the laws give.
+    Any,
     /// Of this class.
     Class(EncounterClass),
     /// Beside this border.
@@ -69,6 +71,7 @@ impl Wanted {
         head_on: HeadOnSector,
     ) -> bool {
         match *self {
+            Self::Any => true,
             Self::Class(wanted) => class == wanted,
             Self::Beside { border, within_rad, side } => {
                 border.excess_rad(beta_rad, alpha_rad, head_on).abs() <= within_rad
@@ -98,6 +101,7 @@ impl Wanted {
             half_width_rad: PI - OVERTAKING_SECTOR_RAD + offset_rad + slack_rad,
         };
         match *self {
+            Self::Any => Arc { centre_rad: 0.0, half_width_rad: PI },
             Self::Class(EncounterClass::HeadOn) => reciprocal(0.0),
             Self::Class(EncounterClass::Overtaking | EncounterClass::Overtaken) => astern(0.0),
             Self::Class(_) => Arc { centre_rad: 0.0, half_width_rad: PI },

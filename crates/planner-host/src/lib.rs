@@ -16,7 +16,7 @@ mod exec;
 mod library;
 mod non_finite;
 pub mod schema;
-mod tail;
+pub mod tail;
 pub mod wire;
 
 pub use entry::{OutsideKind, files, outside, relocated};

@@ -1,4 +1,5 @@
-//! The last lines that a planner wrote to standard error.
+//! The last lines that a planner, or an engine process with a planner in it, wrote to standard
+//! error.
 
 /// Bytes kept; enough for a Python traceback.
 const BYTES_MAX: usize = 4096;
@@ -9,18 +10,18 @@ const COLUMNS_MAX: usize = 200;
 
 /// A window on the end of a stream.
 #[derive(Debug, Default)]
-pub(crate) struct Tail(Vec<u8>);
+pub struct Tail(Vec<u8>);
 
 impl Tail {
     /// Takes more of the stream.
-    pub(crate) fn push(&mut self, bytes: &[u8]) {
+    pub fn push(&mut self, bytes: &[u8]) {
         self.0.extend_from_slice(&bytes[bytes.len().saturating_sub(BYTES_MAX)..]);
         let over = self.0.len().saturating_sub(BYTES_MAX);
         self.0.drain(..over);
     }
 
     /// The last lines, or that there are none, to go behind a message.
-    pub(crate) fn said(&self) -> String {
+    pub fn said(&self) -> String {
         let text = String::from_utf8_lossy(&self.0);
         let lines: Vec<String> =
             text.lines().filter(|line| !line.trim().is_empty()).map(shortened).collect();

@@ -81,4 +81,10 @@ impl Outcome {
                 | Self::PlannerProtocol
         )
     }
+
+    /// Whether a limit on the wall clock ended the run: a faster machine might not have, and its
+    /// digest would then be another.
+    pub const fn is_wall_clock(self) -> bool {
+        matches!(self, Self::PlannerHung)
+    }
 }

@@ -55,6 +55,7 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
             seed: input.summary.seed.to_string(),
             encounters: encounters(input.summary.encounters),
             root_digest: &input.summary.root_digest,
+            ended_by_wall_clock: input.summary.ended_by_wall_clock,
         },
         verdict: verdict(&whole.summary),
         cards: cards(&whole.summary),
@@ -153,6 +154,7 @@ struct Head<'a> {
     seed: String,
     encounters: String,
     root_digest: &'a str,
+    ended_by_wall_clock: u64,
 }
 
 #[derive(Serialize)]

@@ -17,6 +17,17 @@ pub(crate) fn table(summary: &Summary, columns: usize) -> String {
     if columns >= COLUMNS_MIN { wide(summary) } else { narrow(summary) }
 }
 
+/// What must be said beside a root digest that holds runs which the wall clock ended.
+pub(crate) fn wall_clock(ended: u64) -> Option<String> {
+    let many = (ended > 0).then(|| if ended == 1 { "run was" } else { "runs were" });
+    many.map(|many| {
+        format!(
+            "{ended} {many} ended by a limit on the wall clock: a faster machine might not end \
+             them, and its digest would then be another"
+        )
+    })
+}
+
 fn wide(summary: &Summary) -> String {
     let name = summary.strata.iter().map(|s| s.name.len()).max().unwrap_or(0).max(7);
     let mut text = format!(

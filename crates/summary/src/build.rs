@@ -44,6 +44,7 @@ impl Summary {
             seed: head.seed,
             encounters: strata.iter().map(|stratum| stratum.n).sum(),
             root_digest: head.root_digest,
+            ended_by_wall_clock: strata.iter().map(StratumSummary::ended_by_wall_clock).sum(),
             second_judge,
             strata,
         }
@@ -51,6 +52,12 @@ impl Summary {
 }
 
 impl StratumSummary {
+    /// Runs that a limit on the wall clock ended.
+    fn ended_by_wall_clock(&self) -> u64 {
+        let ended = self.outcomes.iter().filter(|(outcome, _)| outcome.is_wall_clock());
+        ended.map(|(_, count)| count).sum()
+    }
+
     /// The summary of one stratum, or of any other group of runs.
     pub fn new(name: &str, tally: &Tally) -> Self {
         let statuses = |check: Check| -> BTreeMap<Status, u64> {

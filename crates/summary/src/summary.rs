@@ -36,6 +36,9 @@ pub struct Summary {
     pub encounters: u64,
     /// BLAKE3 over the run digests in order (stratum, j), hexadecimal.
     pub root_digest: String,
+    /// Runs that a limit on the wall clock ended. Another machine might not end them, so with any
+    /// of them `root_digest` may differ there; it holds their ids and outcomes alone.
+    pub ended_by_wall_clock: u64,
     /// What the second judge said of the first.
     pub second_judge: SecondJudge,
     /// One entry for each stratum, in the order of the campaign.

@@ -54,7 +54,7 @@ fn wrong_values_are_named_with_what_would_be_right() {
         (
             "class = \"head_on\"",
             "class = \"head_on\"\nboundary = \"head_on_crossing\"",
-            "`model.stratum.head_on.class` or `boundary` is needed",
+            "`model.stratum.head_on.class` and `boundary` exclude each other",
         ),
         (
             "boundary = \"head_on_crossing\"\nwithin_deg = 3.0",

@@ -13,4 +13,5 @@ mod law;
 mod named_sets;
 #[cfg(test)]
 mod promise;
+mod traffic;
 mod worlds;

@@ -13,6 +13,17 @@ pub(super) fn run(
     suspect: Option<&str>,
     registry: Registry,
 ) -> Result<Ended, Error> {
+    let ended = run_engine(dir, threads, suspect, registry);
+    engine::say_farewell();
+    ended
+}
+
+fn run_engine(
+    dir: &Path,
+    threads: usize,
+    suspect: Option<&str>,
+    registry: Registry,
+) -> Result<Ended, Error> {
     engine::die_with_supervisor();
     engine::quiet_planner_panics();
     // Ctrl-C reaches the whole group; the supervisor decides when this process ends

@@ -74,6 +74,9 @@ pub(super) fn finish(
     if !quiet {
         say_text!("{}", headline::table(&rendering.summary, headline::terminal_columns()));
         say!("root digest {}", finished.root_digest);
+        if let Some(warning) = headline::wall_clock(rendering.summary.ended_by_wall_clock) {
+            say!("{warning}");
+        }
         say!("report: {}", dir.join("report.html").display());
     }
     let link = link(dir);
