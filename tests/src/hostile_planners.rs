@@ -202,8 +202,8 @@ fn each_way_to_fail_costs_its_own_encounters_and_is_told_in_its_row() {
         let guilty = compare(act, outcome, words, &bad, &good);
         let started = fs::metadata(path.join(format!("processes-{act}"))).unwrap().len() as usize;
         if at_start {
-            // two workers, of which the first one's first process is the one that fails
-            assert_eq!((guilty, started), (1, 3), "{act}");
+            // two workers and a new process for one of them; those of the report's cases come later
+            assert!(guilty == 1 && started >= 3, "{act}: {started} processes, {guilty} lost");
             continue;
         }
         shares.push(guilty);
