@@ -248,7 +248,7 @@ fn without_thread_numbers(text: &str) -> String {
 
 /// Without whether a core was dumped, which is a setting of the machine.
 fn shown(ended: ExitStatus) -> String {
-    let status = ended.signal().map_or(ended, |signal| ExitStatus::from_raw(signal));
+    let status = ended.signal().map_or(ended, ExitStatus::from_raw);
     status.to_string()
 }
 
