@@ -19,7 +19,7 @@ pub(crate) fn table(summary: &Summary, columns: usize) -> String {
 
 /// What must be said beside a root digest that holds runs which the wall clock ended.
 pub(crate) fn wall_clock(ended: u64) -> Option<String> {
-    let many = (ended > 0).then(|| if ended == 1 { "run was" } else { "runs were" });
+    let many = (ended > 0).then_some(if ended == 1 { "run was" } else { "runs were" });
     many.map(|many| {
         format!(
             "{ended} {many} ended by a limit on the wall clock: a faster machine might not end \
