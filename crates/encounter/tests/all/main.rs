@@ -13,5 +13,6 @@ mod law;
 mod named_sets;
 #[cfg(test)]
 mod promise;
+#[cfg(test)]
 mod traffic;
 mod worlds;
