@@ -68,6 +68,12 @@ fn spared(rows: &[RunRow], checks: &[Check]) {
     }
 }
 
+/// Every check but these, which its fault explains, spares this planner.
+fn blames_only(rows: &[RunRow], explained: &[Check]) {
+    let others: Vec<Check> = Check::ALL.into_iter().filter(|c| !explained.contains(c)).collect();
+    spared(rows, &others);
+}
+
 /// What the registry says of the control names this verdict.
 fn names(planner: &str, verdict: &str) {
     let registry = planners::registry();
@@ -99,8 +105,19 @@ fn hold_course_and_blind_to_nearest_keep_the_miss_distance() {
                 assert!(!near_miss || fails, "{planner} {}", row.id);
             }
             assert!(failed(&rows, Check::Safe) > 5, "{planner} {stratum}");
-            let turns = [Check::Turn, Check::R8Dribble, Check::R17Hold, Check::R17Port];
-            spared(&rows, &turns);
+            // who does nothing breaks every duty to act, and none about how
+            let duties = [
+                Check::Safe,
+                Check::R8Magnitude,
+                Check::R8Time,
+                Check::R13,
+                Check::R14,
+                Check::R15,
+                Check::R16,
+                Check::R17Shall,
+                Check::LastMinute,
+            ];
+            blames_only(&rows, &duties);
         }
     }
 }
@@ -110,11 +127,11 @@ fn always_port_is_caught_by_the_side_of_its_turn() {
     names("always-port", "TURN");
     let rows = run("always-port", "", HEAD_ON);
     assert!(failed(&rows, Check::Turn) > 5 && failed(&rows, Check::R14) > 5);
-    let clean = [Check::Safe, Check::R8Magnitude, Check::R8Dribble, Check::R8Time];
-    spared(&rows, &clean);
+    blames_only(&rows, &[Check::Turn, Check::R14]);
     let rows = run("always-port", "", CROSSING_PORT);
     assert!(failed(&rows, Check::Turn) > 10 && failed(&rows, Check::R17Port) > 5);
-    spared(&rows, &[Check::R15, Check::R8Dribble]);
+    // it acts at once, and to port; a head-on by the judge's doubt is among them
+    blames_only(&rows, &[Check::Turn, Check::R14, Check::R17Hold, Check::R17Port]);
 }
 
 /// Its mirror image, the seed planner with a latch, turns the right way in the same encounters.
@@ -137,7 +154,8 @@ fn late_is_caught_by_its_reaction_time() {
     let late = failed(&rows, Check::R8Time);
     assert!(late > ENCOUNTERS / 2, "{late}");
     assert!(late > failed(&run("zhuang", "", CROSSING_STBD), Check::R8Time));
-    spared(&rows, &[Check::Turn, Check::R15, Check::R8Dribble]);
+    let late = [Check::R8Time, Check::R16, Check::Safe, Check::R8Magnitude, Check::R14];
+    blames_only(&rows, &[&late[..], &[Check::LastMinute]].concat());
 }
 
 #[test]

@@ -257,7 +257,10 @@ impl<'a> Case<'a> {
         let last = action.turn_rad.len().saturating_sub(self.hold + 1);
         let held = |values: &[f64], side: f64, least: f64| {
             let seen = |x: &f64| side * x >= least;
-            (action.from..onset.min(last + 1)).any(|k| values[k..=k + self.hold].iter().all(seen))
+            // a run that ended sooner than that holds nothing
+            let window = |k: usize| values.get(k..=k + self.hold);
+            (action.from..onset.min(last + 1))
+                .any(|k| window(k).is_some_and(|w| w.iter().all(seen)))
         };
         let p = self.params;
         [1.0, -1.0].into_iter().any(|side| {

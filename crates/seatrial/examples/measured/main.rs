@@ -14,6 +14,7 @@
 //! * `failures DIR...`: what checks and events found in a result, by class, with exact bounds and
 //!   the worst encounter;
 //! * `random DIR...`: the paper's own world: distances, first alterations, inner loop and goal;
+//! * `made DIR...`: the build that made the results, one line for each that differs;
 //! * `compare DIR`: the planners of a comparison side by side;
 //! * `scenes DIR...`: the smallest distances of named scenes.
 
@@ -81,6 +82,7 @@ fn table_of(results: &Path, words: &[&str]) -> anyhow::Result<String> {
         "failures" => failures::print(&mut out, &dirs)?,
         "random" => random::print(&mut out, &dirs)?,
         "compare" => compare::print(&mut out, &dirs)?,
+        "made" => made(&mut out, &dirs)?,
         "scenes" => compare::print_scenes(&mut out, &dirs)?,
         other => bail!("there is no table `{other}`"),
     }
@@ -100,6 +102,27 @@ fn planner(dir: &Path) -> anyhow::Result<String> {
     let text = std::fs::read_to_string(dir.join("summary.json"))?;
     let summary: serde_json::Value = serde_json::from_str(&text)?;
     Ok(summary["planner"].as_str().unwrap_or("?").to_owned())
+}
+
+/// Commit, engine and planners of results.
+fn made(out: &mut String, dirs: &[PathBuf]) -> anyhow::Result<()> {
+    let mut lines: Vec<String> = Vec::new();
+    for dir in dirs {
+        let path = dir.join("manifest.json");
+        let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+        let manifest: serde_json::Value = serde_json::from_str(&text)?;
+        let short = |key: &str| {
+            let text = manifest["build"][key].as_str().unwrap_or("?");
+            text.get(..12).unwrap_or(text).to_owned()
+        };
+        let (commit, engine, planners) = (short("git_commit"), short("engine"), short("planners"));
+        let line = format!("Made at commit {commit}, engine {engine}, planners {planners}.");
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    line!(out, "{}", lines.join("\n"));
+    Ok(())
 }
 
 /// `k of n` in per cent with exact two-sided 95 % bounds; `open` runs count as none below and as
