@@ -152,7 +152,10 @@ fn draw_overview(sheet: &mut Sheet, area: Area, case: &Case) {
     let every = crate::axis::round_step(trace.end_s, 7.0).max(trace.sample_s);
     let times: Vec<f64> =
         (0..).map(|i| f64::from(i) * every).take_while(|t| *t <= trace.end_s + 1e-9).collect();
-    draw_moments(sheet, &view, trace, &times, true);
+    let marks =
+        std::iter::once(start).chain(goal).map(|mark_m| around(view.at(mark_m), 18.0, 18.0));
+    let mut labels = Labels { taken: marks.collect() };
+    draw_moments(sheet, &view, trace, &times, Some(&mut labels));
     view.mark(sheet, start, "S");
     if let Some(goal) = goal {
         view.mark(sheet, goal, "G");
@@ -162,7 +165,13 @@ fn draw_overview(sheet: &mut Sheet, area: Area, case: &Case) {
 
 /// Hulls at several moments. Own ship's carry their times, on the side away from the others; a
 /// single target's too. Several targets would hide one another's: they carry their numbers.
-fn draw_moments(sheet: &mut Sheet, view: &PlanView, trace: &Trace, times: &[f64], label: bool) {
+fn draw_moments(
+    sheet: &mut Sheet,
+    view: &PlanView,
+    trace: &Trace,
+    times: &[f64],
+    mut labels: Option<&mut Labels>,
+) {
     let several = trace.targets.len() > 1;
     let tracks = || trace.targets.iter().map(|t| (t, Ink::Target)).chain([(&trace.own, Ink::Own)]);
     for (moment, &time_s) in times.iter().enumerate() {
@@ -170,33 +179,67 @@ fn draw_moments(sheet: &mut Sheet, view: &PlanView, trace: &Trace, times: &[f64]
         let middle = poses.iter().map(|p| p.position_m).sum::<Vec2>() / poses.len() as f64;
         for (i, ((track, ink), pose)) in tracks().zip(&poses).enumerate() {
             view.ship(sheet, &track.ship.hull, *pose, ink, 0.3);
+            let Some(labels) = labels.as_deref_mut() else { continue };
             let numbered = several && ink == Ink::Target;
-            if label && numbered && moment == 0 {
-                beside(sheet, view, *pose, middle, ink, &(i + 1).to_string());
-            } else if label && !numbered && moment > 0 {
-                beside(sheet, view, *pose, middle, ink, &fixed(Some(time_s), 0));
+            if numbered && moment == 0 {
+                labels.beside(sheet, view, *pose, middle, ink, &(i + 1).to_string());
+            } else if !numbered && moment > 0 {
+                labels.beside(sheet, view, *pose, middle, ink, &fixed(Some(time_s), 0));
             }
         }
     }
 }
 
-/// A small text abeam of a ship, on the side on which the others are not.
-fn beside(sheet: &mut Sheet, view: &PlanView, pose: Pose, others_m: Vec2, ink: Ink, text: &str) {
-    let at = view.at(pose.position_m);
-    if !view.area.contains(at) {
-        return;
+/// Labels of one panel: where two would lie on one another the later one is left out.
+struct Labels {
+    taken: Vec<Area>,
+}
+
+impl Labels {
+    /// A small text abeam of a ship, on the side on which the others are not, or on the other side
+    /// where there is no room.
+    fn beside(
+        &mut self,
+        sheet: &mut Sheet,
+        view: &PlanView,
+        pose: Pose,
+        others_m: Vec2,
+        ink: Ink,
+        text: &str,
+    ) {
+        const SIZE: f64 = 9.5;
+        let at = view.at(pose.position_m);
+        if !view.area.contains(at) {
+            return;
+        }
+        let abeam = angle::unit(pose.psi_rad + std::f64::consts::FRAC_PI_2);
+        let away = if abeam.dot(&(pose.position_m - others_m)) >= 0.0 { 1.0 } else { -1.0 };
+        for side in [away, -away] {
+            let offset = Vec2::new(abeam.y, -abeam.x) * (side * 11.0);
+            let (width, middle) = (text_width(text, SIZE), at + offset);
+            let (anchor, shift) = if offset.x > 4.0 {
+                (At::Left, width / 2.0)
+            } else if offset.x < -4.0 {
+                (At::Right, -width / 2.0)
+            } else {
+                (At::Middle, 0.0)
+            };
+            let place = around(middle + Vec2::new(shift, 0.0), width, SIZE);
+            if self.taken.iter().all(|other| !overlap(other, &place)) {
+                self.taken.push(place);
+                sheet.text(text, middle.x, middle.y, Type::new(SIZE, ink, anchor));
+                return;
+            }
+        }
     }
-    let abeam = angle::unit(pose.psi_rad + std::f64::consts::FRAC_PI_2);
-    let away = if abeam.dot(&(pose.position_m - others_m)) >= 0.0 { 1.0 } else { -1.0 };
-    let offset = Vec2::new(abeam.y, -abeam.x) * (away * 11.0);
-    let side = if offset.x > 4.0 {
-        At::Left
-    } else if offset.x < -4.0 {
-        At::Right
-    } else {
-        At::Middle
-    };
-    sheet.text(text, at.x + offset.x, at.y + offset.y, Type::new(9.5, ink, side));
+}
+
+fn around(middle: Vec2, width: f64, height: f64) -> Area {
+    Area::new(middle.x - width / 2.0, middle.y - height / 2.0, width, height)
+}
+
+fn overlap(a: &Area, b: &Area) -> bool {
+    a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom()
 }
 
 fn draw_closest(sheet: &mut Sheet, area: Area, case: &Case) {
@@ -236,12 +279,12 @@ fn draw_closest(sheet: &mut Sheet, area: Area, case: &Case) {
     );
     let fastest = (0..trace.own.len()).map(|k| trace.own.sog_mps(k)).fold(1.0, f64::max);
     let every = crate::axis::round_step(radius_m / fastest, 1.5).max(trace.sample_s);
-    let around: Vec<f64> = [-2.0, -1.0, 1.0, 2.0]
+    let nearby: Vec<f64> = [-2.0, -1.0, 1.0, 2.0]
         .map(|i| time_s + i * every)
         .into_iter()
         .filter(|t| *t >= 0.0 && *t <= trace.end_s)
         .collect();
-    draw_moments(sheet, &view, trace, &around, false);
+    draw_moments(sheet, &view, trace, &nearby, None);
     for track in &trace.targets {
         let pose = pose_at(track, trace.sample_s, time_s);
         view.ship(sheet, &track.ship.hull, pose, Ink::Target, 0.9);
@@ -256,4 +299,31 @@ fn draw_closest(sheet: &mut Sheet, area: Area, case: &Case) {
     };
     let title = format!("{title}, at {} s (hulls every {} s)", fixed(Some(time_s), 1), every);
     view.furniture(sheet, &title);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canvas::sheet;
+    use geom::units::deg;
+
+    /// Ships that hardly move would write all their times into one place.
+    #[test]
+    fn labels_do_not_lie_on_one_another() {
+        let view = PlanView::around(Area::new(0.0, 0.0, 400.0, 400.0), Vec2::zeros(), 1000.0);
+        let mut labels = Labels { taken: vec![around(view.at(Vec2::zeros()), 18.0, 18.0)] };
+        let svg = sheet(400.0, 400.0, "labels", |sheet| {
+            for k in 0..40 {
+                let position_m = Vec2::new(f64::from(k), 0.0);
+                let pose = Pose { position_m, psi_rad: deg(90.0) };
+                labels.beside(sheet, &view, pose, Vec2::zeros(), Ink::Own, &k.to_string());
+            }
+        });
+        let places = &labels.taken[1..];
+        assert!(!places.is_empty() && places.len() < 40, "{}", places.len());
+        assert_eq!(svg.matches("<text").count(), places.len());
+        for (i, a) in labels.taken.iter().enumerate() {
+            assert!(labels.taken[..i].iter().all(|b| !overlap(a, b)), "{i}");
+        }
+    }
 }
