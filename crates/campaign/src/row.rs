@@ -29,6 +29,7 @@ pub fn of_run(encounter: &Encounter, trace: &Trace, digest: Digest, judged: &Jud
         row.cpa_s = Some(at_s);
         row.safety_radius_broken = distance_m < trace.safety_radius_m;
         row.class = judged.pairs.get(index).and_then(|pair| pair.class);
+        row.class_by_planner = judged.pairs.get(index).and_then(|pair| pair.class_by_planner);
         row.ambiguous = judged.pairs.get(index).is_some_and(|pair| pair.ambiguous);
     }
     // a run that was cut may have come closer later: its distance so far proves only a breach
@@ -50,6 +51,10 @@ pub fn of_run(encounter: &Encounter, trace: &Trace, digest: Digest, judged: &Jud
         row.impulse_ns = Some(contact.impulse_ns);
         row.energy_lost_j = Some(contact.energy_lost_j);
     }
+    row.fails_by_planner_class = judged.fails_by_planner_class().map(|checks| {
+        let names: Vec<&str> = checks.into_iter().map(Check::name).collect();
+        if names.is_empty() { "none".to_owned() } else { names.join("+") }
+    });
     row.events = trace.events;
     row.planner_detail = trace.planner_detail.clone();
     row.checks = Check::ALL
@@ -85,6 +90,8 @@ fn start(encounter: &Encounter, outcome: Outcome, digest: Digest) -> RunRow {
         weight: encounter.weight,
         targets: encounter.targets.len() as u8,
         class: None,
+        class_by_planner: None,
+        fails_by_planner_class: None,
         ambiguous: false,
         intents: intents.join("+"),
         sensing: encounter.sensing.name().to_owned(),
@@ -215,7 +222,13 @@ mod tests {
     /// A track through these places, a sample at each.
     fn track(places: &[(f64, f64)]) -> ShipTrack {
         let hull = HullOutline::centred(8.45, 2.71);
-        let ship = Ship { hull, yaw_rate_radps_max: 0.3, speed_mps_max: 12.0, steerage_mps: None };
+        let ship = Ship {
+            hull,
+            yaw_rate_radps_max: 0.3,
+            speed_mps_max: 12.0,
+            steerage_mps: None,
+            stopping: None,
+        };
         let mut track = ShipTrack::with_capacity(ship, places.len());
         track.north_m = places.iter().map(|place| place.0).collect();
         track.east_m = places.iter().map(|place| place.1).collect();

@@ -54,6 +54,7 @@ fn facts(class: EncounterClass, role: Role) -> PairFacts {
         risk_s: Some(0.0),
         class: Some(class),
         class_by_bearings: Some(class),
+        class_by_planner: None,
         role,
         ambiguous: false,
         beta_rad: None,

@@ -176,6 +176,6 @@ const fn hazard(check: Check) -> usize {
         Check::Turn | Check::R13 | Check::R14 | Check::R15 => 2,
         Check::R8Magnitude | Check::R8Dribble | Check::R8Time | Check::R16 | Check::LastMinute => 3,
         Check::R17Hold | Check::R17May | Check::R17Shall | Check::R17Port => 4,
-        Check::R5R7 | Check::R6 | Check::R19 => 5,
+        Check::R5R7 | Check::R6 | Check::R19 | Check::R19Speed => 5,
     }
 }

@@ -21,7 +21,7 @@ pub mod stream;
 pub use command::{Alert, Command, CommandError, Order};
 pub use events::PlannerEvents;
 pub use failure::{FailureKind, PlannerFailure};
-pub use geom::Vec2;
+pub use geom::{HeadOnSector, Vec2};
 pub use mission::{Mission, OwnShip, Waypoint};
 pub use registry::{Options, OptionsError, PlannerEntry, Registry};
 pub use situation::{OwnState, Situation, TargetTrack};
@@ -39,5 +39,14 @@ pub trait Planner: Send {
     /// What the planner counted of itself since the last reset.
     fn events(&self) -> PlannerEvents {
         PlannerEvents::default()
+    }
+
+    /// The head-on sector by which it classifies meetings, for a planner that has one. The judge's
+    /// class decides all the same; where the two differ the encounter is listed, and the rates under
+    /// the planner's class stand beside the judge's. The judge asks for the bearing, the contact
+    /// angle and the departure from reciprocal headings; a planner that asks otherwise states the
+    /// nearest sector.
+    fn head_on_sector(&self) -> Option<HeadOnSector> {
+        None
     }
 }

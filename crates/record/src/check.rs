@@ -39,7 +39,7 @@ impl Check {
     pub const fn needs(self) -> Option<&'static str> {
         match self {
             Self::R5R7 => Some("alerts that the planner declares"),
-            Self::R6 => Some("a declared stopping model, as does Rule 19(b)"),
+            Self::R6 | Self::R19Speed => Some("a declared stopping model of own ship"),
             Self::LastMinute => Some("the extra runs of the last-minute search"),
             _ => None,
         }
@@ -81,6 +81,8 @@ checks! {
     R17Port = "r17c", "Stand-on not to port (Rule 17(c))";
     /// Restricted visibility.
     R19 = "r19", "Restricted visibility (Rule 19)";
+    /// Safe speed in restricted visibility, where a stopping model is declared.
+    R19Speed = "r19b", "Safe speed in restricted visibility (Rule 19(b))";
     /// Margin to the last safe instant.
     LastMinute = "last_minute", "Last-minute margin";
 }

@@ -30,7 +30,9 @@ pub use sensing::{Ais, AisRadar, Radar, Sensing, Tracker};
 pub use stream::{Purpose, Seed, Stream, Streams};
 pub use trace::{
     Alert, Contact, ContactWith, LastInstant, LastMinute, Nominal, Order, Pair, PairMinimum,
-    PlannerEvents, Ship, ShipTrack, Trace,
+    PlannerEvents, Ship, ShipTrack, Stopping, Trace,
 };
-pub use verdict::{Evidence, Judgement, PairFacts, Reaction, Role, Status, Unit, Verdict};
+pub use verdict::{
+    Evidence, Judgement, PairFacts, Reaction, Role, StageClock, Status, Unit, Verdict,
+};
 pub use weather::{Fluctuation, Waves, Weather, Wind};

@@ -4,7 +4,7 @@
 //! that decides something is refined within the step and carries its own time.
 
 use crate::{EncounterId, Outcome, Waypoint, encounter::DistanceKind, encounter::Visibility};
-use geom::{HullOutline, Vec2};
+use geom::{HeadOnSector, HullOutline, Vec2};
 use serde::{Deserialize, Serialize};
 
 /// One run, whole. Plain data: the judge sees this and nothing else.
@@ -42,6 +42,9 @@ pub struct Trace {
     pub alerts: Vec<Alert>,
     /// What the planner counted.
     pub events: PlannerEvents,
+    /// The head-on sector by which the planner says that it classifies; absent where it states none.
+    /// A declaration, no event of the run: no part of the digest.
+    pub planner_sector: Option<HeadOnSector>,
     /// The last words of a planner that failed. No part of the digest.
     pub planner_detail: Option<String>,
     /// The contact that ended the run.
@@ -77,6 +80,37 @@ pub struct Ship {
     pub speed_mps_max: f64,
     /// Slowest speed at which she steers, m/s; absent where the model declares none.
     pub steerage_mps: Option<f64>,
+    /// In what distance she stops; absent where nobody says.
+    pub stopping: Option<Stopping>,
+}
+
+/// A declared stopping model: how far a ship goes along her track after full astern.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stopping {
+    /// The highest speed that is declared, m/s.
+    pub speed_mps_max: f64,
+    /// Track reach, metres, from equal steps of speed up to the highest: entry `i` from
+    /// `(i + 1) / STEPS` of it.
+    pub reach_m: [f64; Self::STEPS],
+}
+
+impl Stopping {
+    /// Number of declared speeds.
+    pub const STEPS: usize = 8;
+
+    /// Track reach from a speed, metres. Straight lines between the declared speeds, which lie above
+    /// the curve of a ship that takes longer the faster she goes; beyond the highest with the square
+    /// of the speed.
+    pub fn distance_m(&self, speed_mps: f64) -> f64 {
+        let at = (speed_mps / self.speed_mps_max).max(0.0) * Self::STEPS as f64;
+        if at >= Self::STEPS as f64 {
+            let faster = at / Self::STEPS as f64;
+            return self.reach_m[Self::STEPS - 1] * faster * faster;
+        }
+        let step = at as usize;
+        let lower_m = if step == 0 { 0.0 } else { self.reach_m[step - 1] };
+        lower_m + (self.reach_m[step] - lower_m) * (at - step as f64)
+    }
 }
 
 /// Samples of one ship, one array for each signal.

@@ -98,6 +98,16 @@ pub struct Evidence {
     pub unit: Unit,
 }
 
+/// How the limits of the stages of an encounter are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StageClock {
+    /// Fixed ranges, as papers have them.
+    Range,
+    /// Ranges that grow with the closing speed.
+    Time,
+}
+
 /// One check of one pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
@@ -117,6 +127,8 @@ pub struct Verdict {
     pub robustness: Option<f64>,
     /// Score in [0, 1] after Hagen 2023, where there is one.
     pub score: Option<f64>,
+    /// By what the limits of the stages were found; absent for a pair that had none.
+    pub stages_by: Option<StageClock>,
     /// The moment that decided it, seconds.
     pub t_s: Option<f64>,
     /// The numbers that decided it.
@@ -167,6 +179,8 @@ pub struct PairFacts {
     pub class: Option<EncounterClass>,
     /// Class at onset by the bearings alone, whatever the doubt.
     pub class_by_bearings: Option<EncounterClass>,
+    /// Class at onset by the head-on sector that the planner states; absent where it states none.
+    pub class_by_planner: Option<EncounterClass>,
     /// Role at onset.
     pub role: Role,
     /// Another class is reachable within 2 degrees.
@@ -198,6 +212,9 @@ pub struct Judgement {
     pub pairs: Vec<PairFacts>,
     /// One entry for each check and pair.
     pub verdicts: Vec<Verdict>,
+    /// The same under the classes of the planner's own head-on sector, where one of them differs
+    /// from the judge's; absent where none does, or the planner states none. They decide nothing.
+    pub by_planner_class: Option<Vec<Verdict>>,
 }
 
 impl Judgement {
@@ -209,10 +226,23 @@ impl Judgement {
 
     /// The verdict that decides a check over all pairs: the worst, then the smallest margin.
     pub fn worst(&self, check: Check) -> Option<&Verdict> {
-        self.verdicts.iter().filter(|verdict| verdict.check == check).max_by(|a, b| {
-            let margin = |v: &Verdict| v.margin.unwrap_or(f64::INFINITY);
-            (a.status.severity().cmp(&b.status.severity()))
-                .then_with(|| margin(b).total_cmp(&margin(a)))
-        })
+        worst(&self.verdicts, check)
     }
+
+    /// The checks that fail under the planner's own classes, where one of these differs.
+    pub fn fails_by_planner_class(&self) -> Option<Vec<Check>> {
+        let verdicts = self.by_planner_class.as_ref()?;
+        let fails = |check: &Check| {
+            worst(verdicts, *check).is_some_and(|verdict| verdict.status == Status::Fail)
+        };
+        Some(Check::ALL.into_iter().filter(fails).collect())
+    }
+}
+
+fn worst(verdicts: &[Verdict], check: Check) -> Option<&Verdict> {
+    verdicts.iter().filter(|verdict| verdict.check == check).max_by(|a, b| {
+        let margin = |v: &Verdict| v.margin.unwrap_or(f64::INFINITY);
+        (a.status.severity().cmp(&b.status.severity()))
+            .then_with(|| margin(b).total_cmp(&margin(a)))
+    })
 }

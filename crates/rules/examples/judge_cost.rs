@@ -64,6 +64,7 @@ fn encounter(bearing_deg: f64, course_deg: f64) -> Trace {
         alerts: Vec::new(),
         events: PlannerEvents::default(),
         contact: None,
+        planner_sector: None,
         planner_detail: None,
         goal_reached: false,
         nominal: Some(Nominal {
@@ -84,6 +85,7 @@ fn ship(length_m: f64, beam_m: f64) -> Ship {
         yaw_rate_radps_max: deg(10.0),
         speed_mps_max: 12.0,
         steerage_mps: None,
+        stopping: None,
     }
 }
 

@@ -40,6 +40,8 @@ pub(crate) struct Action {
     pub(crate) detectable_s: Option<f64>,
     /// First readily apparent one, seconds.
     pub(crate) apparent_s: Option<f64>,
+    /// The same by course alone, seconds.
+    pub(crate) turn_apparent_s: Option<f64>,
     /// Start of the first run that led to a substantial one (`t_man`), seconds.
     pub(crate) manoeuvre_s: Option<f64>,
 }
@@ -79,6 +81,7 @@ impl Action {
             x_u: 0.0,
             detectable_s: None,
             apparent_s: None,
+            turn_apparent_s: None,
             manoeuvre_s: None,
             runs,
             speed_runs,
@@ -220,6 +223,7 @@ impl Action {
             .flatten();
         self.detectable_s = detectable_s;
         self.apparent_s = apparent_s;
+        self.turn_apparent_s = turned_s;
         self.manoeuvre_s = earliest(&[by_course, by_speed]);
     }
 

@@ -8,7 +8,7 @@ use crate::ruleset::{RuleSet, StageMode};
 use crate::runs::TurnRun;
 use crate::signal::OwnSignals;
 use geom::{EncounterClass, Vec2, angle, math};
-use record::{LastInstant, LastMinute, Role};
+use record::{LastInstant, LastMinute, Role, StageClock};
 
 /// What a check may look at.
 #[derive(Debug)]
@@ -153,14 +153,21 @@ impl<'a> Case<'a> {
         case
     }
 
+    /// By what the limits of the stages are found: always by time for the overtaking roles.
+    pub(crate) fn stages_by(&self) -> StageClock {
+        let overtaking =
+            matches!(self.class, EncounterClass::Overtaking | EncounterClass::Overtaken);
+        match self.rules().stages.mode {
+            StageMode::Range if !overtaking => StageClock::Range,
+            _ => StageClock::Time,
+        }
+    }
+
     /// `limit_2`, `limit_3` and `limit_4` at a sample, metres.
     fn limits_at_m(&self, k: usize) -> [f64; 3] {
         let s = &self.rules().stages;
-        let fixed_m = [s.r2_m, s.r3_m, s.r4_m];
-        let overtaking =
-            matches!(self.class, EncounterClass::Overtaking | EncounterClass::Overtaken);
-        if s.mode == StageMode::Range && !overtaking {
-            return fixed_m;
+        if self.stages_by() == StageClock::Range {
+            return [s.r2_m, s.r3_m, s.r4_m];
         }
         let (position_m, velocity_mps) = self.life.actual.relative(k);
         let closing_mps = (-position_m.dot(&velocity_mps) / position_m.norm()).max(0.0);

@@ -3,7 +3,8 @@
 
 use crate::action::Action;
 use crate::case::role_of;
-use crate::life::PairLife;
+use crate::life::{Onset, PairLife};
+use geom::EncounterClass;
 use record::{PairFacts, Reaction, Role};
 
 pub(crate) fn facts(life: &PairLife<'_>, action: &Action) -> PairFacts {
@@ -13,6 +14,7 @@ pub(crate) fn facts(life: &PairLife<'_>, action: &Action) -> PairFacts {
         risk_s: onset.map(|onset| life.time_s(onset.k)),
         class: onset.map(|onset| onset.decides),
         class_by_bearings: onset.map(|onset| onset.class),
+        class_by_planner: onset.and_then(|onset| by_planner(life, &onset)),
         role: onset.map_or(Role::None, |onset| role_of(onset.decides)),
         ambiguous: onset.is_some_and(|onset| onset.ambiguous()),
         beta_rad: onset.map(|onset| onset.seen.beta_rad),
@@ -38,4 +40,14 @@ fn reaction(life: &PairLife<'_>, seen_s: Option<f64>) -> Reaction {
         None if life.passed.is_some() => Reaction::Never,
         None => Reaction::Unknown,
     }
+}
+
+/// The class at onset by the head-on sector that the planner states. Whether a ship moves is no
+/// matter of the sector.
+pub(crate) fn by_planner(life: &PairLife<'_>, onset: &Onset) -> Option<EncounterClass> {
+    let sector = life.trace.planner_sector?;
+    Some(match onset.class {
+        EncounterClass::Static => EncounterClass::Static,
+        _ => geom::classify(onset.seen.beta_rad, onset.seen.alpha_rad, sector),
+    })
 }

@@ -82,6 +82,7 @@ pub(crate) fn unreadable(trace: &Trace, target: usize, flaw: &'static str, out: 
         risk_s: None,
         class: None,
         class_by_bearings: None,
+        class_by_planner: None,
         role: Role::None,
         ambiguous: false,
         beta_rad: None,

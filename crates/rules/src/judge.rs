@@ -7,7 +7,7 @@
 use crate::action::Action;
 use crate::before_risk::{resolved_without_nominal, turn_before_risk};
 use crate::case::{Case, role_of};
-use crate::facts::facts;
+use crate::facts::{by_planner, facts};
 use crate::flaws::{own_flaw, target_flaw, unreadable};
 use crate::life::PairLife;
 use crate::risk::RiskScanner;
@@ -19,7 +19,7 @@ use crate::{
     last_minute, rule_05_07_lookout, rule_06_safe_speed, rule_08_dribble, rule_08_magnitude,
     rule_08_third_ship, rule_08_time, rule_13_overtaking, rule_14_head_on, rule_15_crossing,
     rule_16_give_way, rule_17_hold, rule_17_may_act, rule_17_port, rule_17_shall_act,
-    rule_19_restricted, safe, turn,
+    rule_19_restricted, rule_19_safe_speed, safe, turn,
 };
 use geom::EncounterClass;
 use record::{Check, Judgement, PairFacts, Reaction, Role, Status, Trace, Verdict, Visibility};
@@ -60,6 +60,7 @@ impl Judge {
         let mut judgement = Judgement {
             pairs: Vec::with_capacity(targets),
             verdicts: Vec::with_capacity(targets * Check::COUNT),
+            by_planner_class: None,
         };
         if let Some(flaw) = own_flaw(trace) {
             for target in 0..targets {
@@ -89,6 +90,7 @@ impl Judge {
                 }
             }
         }
+        complete_planner_class(&mut judgement);
         judgement
     }
 }
@@ -112,11 +114,12 @@ impl<'a> Bench<'a> {
         let sight = in_sight_at(life);
         let mut facts = facts(life, &action);
         if sight == Some(0) {
-            let verdicts = self.judge_roles(life, &action, scanner, &mut facts);
-            out.verdicts.extend(verdicts);
+            let roles = self.judge_roles(life, &action, scanner, &mut facts);
+            out.verdicts.extend(roles.verdicts);
+            note_planner_class(out, roles.by_planner_class);
         } else {
             facts.role = Role::None;
-            let mut verdicts = self.judge_restricted(life, &action);
+            let mut verdicts = self.judge_restricted(life, &action, &mut facts);
             if let Some(k) = sight {
                 let life = life.in_sight_from(k, scanner);
                 if let Some(onset) = life.onset {
@@ -124,12 +127,16 @@ impl<'a> Bench<'a> {
                     facts.class = Some(onset.decides);
                     facts.class_by_bearings = Some(onset.class);
                     facts.ambiguous = onset.ambiguous();
+                    facts.class_by_planner = by_planner(&life, &onset);
                     let seen = self.judge_roles(&life, &action, scanner, &mut facts);
-                    for (verdict, seen) in verdicts.iter_mut().zip(seen) {
+                    for (verdict, seen) in verdicts.iter_mut().zip(seen.verdicts) {
                         if in_sight_only(verdict.check) {
                             *verdict = seen;
                         }
                     }
+                    let theirs = seen.by_planner_class.into_iter().flatten();
+                    let theirs = theirs.filter(|verdict| in_sight_only(verdict.check)).collect();
+                    note_planner_class(out, Some(theirs).filter(|v: &Vec<_>| !v.is_empty()));
                 }
             }
             out.verdicts.extend(verdicts);
@@ -169,14 +176,15 @@ impl<'a> Bench<'a> {
         (life.rules.manoeuvre.attribution_lead_s / life.trace.sample_s) as usize
     }
 
-    /// Another target that own ship owed giving way when she turned, if she owed this one nothing.
+    /// Another target that own ship owed giving way when she turned, or slowed, if she owed this one nothing.
     fn forced_by(
         &self,
         life: &PairLife<'_>,
         class: EncounterClass,
         action: &Action,
     ) -> Option<usize> {
-        let start = action.turn?.start;
+        let slowed = action.speed_runs.first().map(|run| run.start);
+        let start = action.turn.map(|turn| turn.start).or(slowed)?;
         if role_of(class) != Role::StandOn {
             return None;
         }
@@ -198,7 +206,7 @@ impl<'a> Bench<'a> {
         action: &Action,
         scanner: &mut RiskScanner,
         facts: &mut PairFacts,
-    ) -> Vec<Verdict> {
+    ) -> Roles {
         let onset = life.onset.as_ref().expect("only a pair at risk has roles");
         let resolved_early = self.resolved_early(life, action, scanner);
         let case_of = |class: EncounterClass| {
@@ -220,14 +228,22 @@ impl<'a> Bench<'a> {
                 }
             }
         }
-        verdicts
+        let theirs = facts.class_by_planner.filter(|&class| class != onset.decides);
+        let by_planner_class = theirs.map(|class| all_checks(&case_of(class)));
+        Roles { verdicts, by_planner_class }
     }
 
-    fn judge_restricted(&self, life: &PairLife<'_>, action: &Action) -> Vec<Verdict> {
+    fn judge_restricted(
+        &self,
+        life: &PairLife<'_>,
+        action: &Action,
+        facts: &mut PairFacts,
+    ) -> Vec<Verdict> {
         let onset = life.onset.as_ref().expect("only a pair at risk is judged by Rule 19");
         let mut case = Case::new(life, self.own, action, onset, onset.decides, self.lives);
         case.restricted = true;
         case.role = Role::None;
+        facts.stages_s = case.stages.map(|k| k.map(|k| life.time_s(k)));
         all_checks(&case)
     }
 
@@ -261,7 +277,7 @@ impl<'a> Bench<'a> {
             out.verdicts.push(match check {
                 Check::Safe => safe::without_risk(life),
                 Check::R5R7 => rule_05_07_lookout::without_risk(life),
-                Check::R6 => rule_06_safe_speed::check(life),
+                Check::R6 => rule_06_safe_speed::without_risk(life),
                 Check::Turn if early.is_some() => turn_before_risk(life, action, early),
                 _ if early.is_some() => nothing.detail("RESOLVED_EARLY").done(),
                 _ => nothing.done(),
@@ -269,6 +285,32 @@ impl<'a> Bench<'a> {
         }
         out.pairs.push(facts);
     }
+}
+
+/// The verdicts of a pair in sight.
+struct Roles {
+    verdicts: Vec<Verdict>,
+    /// The same under the class of the planner's own sector, where it is another.
+    by_planner_class: Option<Vec<Verdict>>,
+}
+
+/// Keeps what a pair's verdicts are under the planner's class until the run is judged.
+fn note_planner_class(out: &mut Judgement, verdicts: Option<Vec<Verdict>>) {
+    if let Some(verdicts) = verdicts {
+        out.by_planner_class.get_or_insert_default().extend(verdicts);
+    }
+}
+
+/// The whole run under the planner's classes: where they are the judge's, his verdicts.
+fn complete_planner_class(judgement: &mut Judgement) {
+    let Some(theirs) = judgement.by_planner_class.take() else { return };
+    let mut all = judgement.verdicts.clone();
+    for verdict in theirs {
+        let key = |verdict: &Verdict| (verdict.check, verdict.target);
+        let same = all.iter_mut().find(|other| key(other) == key(&verdict));
+        *same.expect("every pair has every check") = verdict;
+    }
+    judgement.by_planner_class = Some(all);
 }
 
 /// Every check of one case, in the order of `Check::ALL`; SAFE last in time, because a stand-on
@@ -291,7 +333,7 @@ fn one_check(case: &Case<'_>, check: Check) -> Verdict {
         Check::Safe => Ruling::new(check, case.life.target, Status::NotEvaluated).done(),
         Check::Turn => turn::check(case),
         Check::R5R7 => rule_05_07_lookout::check(case),
-        Check::R6 => rule_06_safe_speed::check(case.life),
+        Check::R6 => rule_06_safe_speed::check(case),
         Check::R8Magnitude => rule_08_magnitude::check(case),
         Check::R8Dribble => rule_08_dribble::check(case),
         Check::R8Third => rule_08_third_ship::check(case),
@@ -305,6 +347,7 @@ fn one_check(case: &Case<'_>, check: Check) -> Verdict {
         Check::R17Shall => rule_17_shall_act::check(case),
         Check::R17Port => rule_17_port::check(case),
         Check::R19 => rule_19_restricted::check(case),
+        Check::R19Speed => rule_19_safe_speed::check(case),
         Check::LastMinute => last_minute::check(case),
     }
 }
@@ -312,12 +355,16 @@ fn one_check(case: &Case<'_>, check: Check) -> Verdict {
 /// A run cut before the closest point can have failed, but nothing else is settled. A ship that
 /// acted before risk and so kept it from opening is not failed for what she then left undone.
 fn settle(case: &Case<'_>, mut verdict: Verdict) -> Verdict {
+    verdict.stages_by = Some(case.stages_by());
     let decided = matches!(verdict.status, Status::Pass | Status::Warn);
     if !case.complete() && decided && verdict.check != Check::R5R7 {
         verdict.status = Status::Inconclusive;
         verdict.sentence = None;
     }
-    let excusable = !matches!(verdict.check, Check::Safe | Check::LastMinute | Check::R8Third);
+    let excusable = !matches!(
+        verdict.check,
+        Check::Safe | Check::LastMinute | Check::R8Third | Check::R6 | Check::R19Speed
+    );
     if case.resolved_early && excusable && verdict.status == Status::Fail {
         verdict.status = Status::Warn;
         verdict.detail = "RESOLVED_EARLY".into();

@@ -31,6 +31,7 @@ mod rule_17_may_act;
 mod rule_17_port;
 mod rule_17_shall_act;
 mod rule_19_restricted;
+mod rule_19_safe_speed;
 mod ruleset;
 mod ruleset_file;
 mod ruling;

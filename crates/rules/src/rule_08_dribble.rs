@@ -20,7 +20,7 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         return not_applicable(case, Check::R8Dribble);
     };
     let m = &case.rules().manoeuvre;
-    let apparent_s = case.action.apparent_s.unwrap_or(f64::INFINITY);
+    let apparent_s = case.action.turn_apparent_s.unwrap_or(f64::INFINITY);
     let small = case.action.runs.iter().filter(|run| {
         let ended_s = case.life.time_s(run.end);
         run.size_rad * turn.size_rad > 0.0

@@ -2,7 +2,7 @@
 //!
 //! Rule 17(a)(i): "Where one of two vessels is to keep out of the way the other shall keep her
 //! course and speed."
-//! Reading: from stage 2 until she may act (17(a)(ii)) or must (stage 4, 17(b)), the mean heading
+//! Reading: from stage 2 until she may act (17(a)(ii)) or must (17(b)), the mean heading
 //! over 30 s stays within 10 degrees of the mean before stage 2 and the speed within a quarter of
 //! that at its entry; from 2 degrees or 7 % it is a warning. A departure counts when it is held.
 //! Heading is a mean because a yaw of 1 degree rms would warn in 98 % of held courses.
@@ -30,7 +30,9 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         return not_applicable(case, Check::R17Hold);
     };
     let m = &case.rules().manoeuvre;
-    let until = [case.may_act, case.stages[2], Some(case.end())];
+    // 17(b) ends the duty, from stage 4 on or from when the other alone can no longer avoid
+    let shall_act = case.target_helpless_s().map(|t_s| case.life.sample(t_s));
+    let until = [case.may_act, shall_act, case.stages[2], Some(case.end())];
     let end = until.into_iter().flatten().min().unwrap_or(begin);
     if end <= begin {
         return not_applicable(case, Check::R17Hold);

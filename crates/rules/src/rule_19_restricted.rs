@@ -9,8 +9,8 @@
 //! at which it began; "so far as possible": a warning where own last safe instant had passed. (e):
 //! at half the close-quarters distance and still closing on a vessel forward of the beam she is at
 //! steerage speed. Ample time and size are Rule 8's.
-//! Source: rules specification, section 9 (R19). 19(b), safe speed, has no number and is not
-//! judged.
+//! Source: rules specification, section 9 (R19). 19(b), safe speed, is a check
+//! of its own.
 
 use crate::case::Case;
 use crate::ruling::{Ruling, not_applicable};
@@ -71,7 +71,7 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .done()
 }
 
-fn out_of_sight(case: &Case<'_>, k: usize) -> bool {
+pub(crate) fn out_of_sight(case: &Case<'_>, k: usize) -> bool {
     match case.life.trace.visibility {
         record::Visibility::InSight => false,
         record::Visibility::Restricted { visual_range_m } => {

@@ -233,6 +233,8 @@ pub struct RestrictedVisibility {
     pub close_quarters_m: f64,
     /// Steerage speed as a share of the planned one, where the ship declares none.
     pub steerage_fraction: f64,
+    /// Safe speed: own ship stops within this share of the visual range.
+    pub stopping_visibility_share: f64,
 }
 
 fn degrees<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {

@@ -27,6 +27,7 @@ impl Ruling {
             margin_unit: margin_unit(check),
             robustness: None,
             score: None,
+            stages_by: None,
             t_s: None,
             evidence: Vec::new(),
             sentence: None,
@@ -84,6 +85,10 @@ impl Ruling {
         self.number(name, value, Unit::Radians)
     }
 
+    pub(crate) fn metres_a_second(self, name: &'static str, value: f64) -> Self {
+        self.number(name, value, Unit::MetresPerSecond)
+    }
+
     pub(crate) fn share(self, name: &'static str, value: f64) -> Self {
         self.number(name, value, Unit::One)
     }
@@ -117,19 +122,18 @@ pub(crate) fn not_applicable(case: &Case<'_>, check: Check) -> Verdict {
 /// The unit in which a check measures by how much.
 pub(crate) const fn margin_unit(check: Check) -> Unit {
     match check {
-        Check::Safe | Check::R8Third | Check::R13 | Check::R15 => Unit::Metres,
+        Check::Safe | Check::R6 | Check::R8Third | Check::R13 | Check::R15 | Check::R19Speed => {
+            Unit::Metres
+        }
         Check::Turn
         | Check::R8Magnitude
         | Check::R14
         | Check::R17Hold
         | Check::R17Port
         | Check::R19 => Unit::Radians,
-        Check::R5R7
-        | Check::R6
-        | Check::R8Time
-        | Check::R17May
-        | Check::R17Shall
-        | Check::LastMinute => Unit::Seconds,
+        Check::R5R7 | Check::R8Time | Check::R17May | Check::R17Shall | Check::LastMinute => {
+            Unit::Seconds
+        }
         Check::R8Dribble | Check::R16 => Unit::One,
     }
 }

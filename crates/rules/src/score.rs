@@ -99,19 +99,25 @@ pub(crate) fn crossing(case: &Case<'_>) -> f64 {
     (give_way(case) - if ahead { 0.5 } else { 0.0 }).max(0.0)
 }
 
+/// `C_x,gw`: what is left of a stand-on ship's penalties while she gives way to another target
+/// (section 11; CCTA 2023).
+const COMPENSATION: f64 = 0.2;
+
 /// `S17`, equations 15 to 24, from the largest departures in stages 2 and 3 (angle, share) and
 /// whether own ship turned to port in stage 4.
 pub(crate) fn stand_on(case: &Case<'_>, stages: [(f64, f64); 2], port_in_stage_4: bool) -> f64 {
     let m = &case.rules().manoeuvre;
     let linear = |x: f64, from: f64, to: f64| ((x - from) / (to - from)).clamp(0.0, 1.0);
+    let weight = if case.forced_by.is_some() { COMPENSATION } else { 1.0 };
     let held: f64 = stages
         .iter()
         .map(|&(turn_rad, share)| {
             let turn = linear(turn_rad, m.detectable_turn_rad, m.apparent_turn_rad);
             // speed: 0.07 to 0.25 in the reconstruction
             let cut = linear(share, m.detectable_speed_fraction, m.substantial_speed_fraction);
-            1.0 - 0.5 * turn - 0.5 * cut
+            1.0 - weight * (0.5 * turn + 0.5 * cut)
         })
         .product();
-    if port_in_stage_4 { 0.0 } else { safety(case) * held }
+    let port = if port_in_stage_4 { 1.0 - weight } else { 1.0 };
+    safety(case) * held * port
 }

@@ -22,6 +22,7 @@ pub(crate) fn ship(length_m: f64, beam_m: f64) -> Ship {
         yaw_rate_radps_max: deg(20.0),
         speed_mps_max: 20.0,
         steerage_mps: None,
+        stopping: None,
     }
 }
 
@@ -212,6 +213,7 @@ impl Scene {
             alerts: Vec::new(),
             events: PlannerEvents::default(),
             contact,
+            planner_sector: None,
             planner_detail: None,
             goal_reached: false,
             nominal: (!self.without_nominal).then(|| self.make_nominal(seconds)),

@@ -3,6 +3,7 @@
 mod dnv_labels;
 mod edge_cases;
 mod laws;
+mod planner_class;
 mod rule_13;
 mod rule_17;
 mod rule_19_and_last_minute;
@@ -10,13 +11,15 @@ mod rule_8;
 mod rule_sets;
 mod rules_14_15_16;
 mod safe_and_turn;
+mod safe_speed;
 mod several_targets;
 mod window;
 
 use crate::testing::{Scene, Script, rules, ship};
 use crate::{Judge, RuleSet};
+use geom::EncounterClass;
 use geom::units::deg;
-use record::{Check, Judgement, Status, Trace, Verdict};
+use record::{Check, Judgement, StageClock, Status, Trace, Verdict};
 
 fn judge(scene: &Scene) -> Judgement {
     judge_by(rules(), &scene.trace())

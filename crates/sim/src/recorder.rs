@@ -14,6 +14,7 @@ pub fn track_of(ship: &Ship, samples: usize) -> ShipTrack {
         yaw_rate_radps_max: limits.yaw_rate_radps_max,
         speed_mps_max: limits.speed_mps_max,
         steerage_mps: limits.steerage_mps,
+        stopping: ship.stopping,
     };
     ShipTrack::with_capacity(who, samples)
 }

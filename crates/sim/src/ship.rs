@@ -2,9 +2,9 @@
 
 use crate::hull::Hull;
 use crate::pose::Pose;
-use crate::vessel::{Helm, Model, State};
+use crate::vessel::{self, Helm, Model, State};
 use geom::{HullOutline, Vec2};
-use record::{Motion, Vessel};
+use record::{Motion, Stopping, Vessel};
 
 /// A ship under way.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub struct Ship {
     pub hull: Hull,
     /// What moves her.
     pub model: Model,
+    /// In what distance she stops.
+    pub stopping: Option<Stopping>,
     /// Where she is now.
     pub state: State,
     /// Where she was at the start of the step.
@@ -67,6 +69,7 @@ impl Ship {
             outline,
             hull,
             model,
+            stopping: vessel::stopping(vessel),
             state,
             before: pose,
             pose,

@@ -69,9 +69,13 @@ pub fn run_among(
     }
     let mission = mission(encounter, &world.own);
     let mut pilot = Pilot { planner, beat, mission, last_words: None };
+    // what it declares of itself ends no run
+    let planner_sector = pilot.call(|planner, _| planner.head_on_sector()).unwrap_or_default();
+    pilot.last_words = None;
     let (outcome, end_s) = world.sail(&mut pilot, scratch);
     let planner_detail = pilot.last_words.take();
-    Trace { planner_detail, ..world.into_trace(outcome, end_s, pilot.events()) }
+    let trace = world.into_trace(outcome, end_s, pilot.events());
+    Trace { planner_detail, planner_sector, ..trace }
 }
 
 /// Below this lower bound every hull distance of a trace is exact, metres: beyond what any rule
@@ -447,8 +451,13 @@ fn mission(encounter: &Encounter, own: &Ship) -> Mission {
 /// The trace of an encounter that was not run.
 fn invalid(encounter: &Encounter) -> Trace {
     let empty = |hull| {
-        let ship =
-            record::Ship { hull, yaw_rate_radps_max: 0.0, speed_mps_max: 0.0, steerage_mps: None };
+        let ship = record::Ship {
+            hull,
+            yaw_rate_radps_max: 0.0,
+            speed_mps_max: 0.0,
+            steerage_mps: None,
+            stopping: None,
+        };
         ShipTrack::with_capacity(ship, 0)
     };
     Trace {
@@ -469,6 +478,7 @@ fn invalid(encounter: &Encounter) -> Trace {
         alerts: Vec::new(),
         events: PlannerEvents::default(),
         contact: None,
+        planner_sector: None,
         planner_detail: None,
         goal_reached: false,
         nominal: None,

@@ -15,6 +15,8 @@ fn row(stratum: &str, j: u64) -> RunRow {
         weight: 1.0,
         targets: 1,
         class: Some(EncounterClass::HeadOn),
+        class_by_planner: None,
+        fails_by_planner_class: None,
         ambiguous: false,
         intents: "hold_course".into(),
         sensing: "perfect".into(),

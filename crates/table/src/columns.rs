@@ -53,6 +53,8 @@ pub(crate) fn blank_row() -> RunRow {
         weight: f64::NAN,
         targets: 0,
         class: None,
+        class_by_planner: None,
+        fails_by_planner_class: None,
         ambiguous: false,
         intents: String::new(),
         sensing: String::new(),
@@ -119,6 +121,38 @@ macro_rules! text {
                 |row, text| {
                     row.$field = text.to_owned();
                     true
+                },
+            ),
+        }
+    };
+}
+
+macro_rules! optional_text {
+    ($field:ident) => {
+        Column {
+            name: stringify!($field),
+            required: false,
+            cells: Cells::Word(
+                |row| row.$field.as_deref(),
+                |row, words| {
+                    row.$field = Some(words.to_owned());
+                    true
+                },
+            ),
+        }
+    };
+}
+
+macro_rules! class {
+    ($field:ident) => {
+        Column {
+            name: stringify!($field),
+            required: false,
+            cells: Cells::Word(
+                |row| row.$field.map(EncounterClass::name),
+                |row, word| {
+                    row.$field = EncounterClass::from_name(word);
+                    row.$field.is_some()
                 },
             ),
         }
@@ -210,17 +244,9 @@ pub(crate) const COLUMNS: &[Column] = &[
             |row, count| row.targets = u8::try_from(count).unwrap_or(u8::MAX),
         ),
     },
-    Column {
-        name: "class",
-        required: false,
-        cells: Cells::Word(
-            |row| row.class.map(EncounterClass::name),
-            |row, word| {
-                row.class = EncounterClass::from_name(word);
-                row.class.is_some()
-            },
-        ),
-    },
+    class!(class),
+    class!(class_by_planner),
+    optional_text!(fails_by_planner_class),
     required!(Flag ambiguous),
     text!(intents),
     text!(sensing),
@@ -258,17 +284,7 @@ pub(crate) const COLUMNS: &[Column] = &[
     event!("events_class_changes" class_changes),
     event!("events_receding_flagged" receding_flagged),
     event!("events_passes" passes),
-    Column {
-        name: "planner_detail",
-        required: false,
-        cells: Cells::Word(
-            |row| row.planner_detail.as_deref(),
-            |row, words| {
-                row.planner_detail = Some(words.to_owned());
-                true
-            },
-        ),
-    },
+    optional_text!(planner_detail),
     optional!(Flag judges_disagree),
 ];
 

@@ -26,6 +26,8 @@ fn row(stratum: &str, j: u64) -> RunRow {
         weight: 1.0 / (1.0 + x),
         targets: (j % 256) as u8,
         class: EncounterClass::ALL.get((j % 7) as usize).copied(),
+        class_by_planner: [None, Some(EncounterClass::HeadOn)][(j % 2) as usize],
+        fails_by_planner_class: [Some("turn+r14".to_owned()), None][(j % 2) as usize].clone(),
         ambiguous: j.is_multiple_of(2),
         intents: ["", "hold_course", "complies+neglects"][(j % 3) as usize].to_owned(),
         sensing: ["perfect", "ais_radar"][(j % 2) as usize].to_owned(),
@@ -137,9 +139,9 @@ fn columns_carry_the_names_of_the_fields() {
     unique.sort();
     unique.dedup();
     assert_eq!(unique.len(), names.len());
-    // Every field of a row is in the file: 38 plain ones, of them two in two columns (reactions),
+    // Every field of a row is in the file: 40 plain ones, of them two in two columns (reactions),
     // the id in three, six events, and two columns for each check.
-    assert_eq!(names.len(), 47 + 2 * Check::COUNT);
+    assert_eq!(names.len(), 49 + 2 * Check::COUNT);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::search::{self, Reference, Target};
 use super::steady::{Lookout, Seen};
 use crate::clearance::Clearance;
 use crate::guidance::{Guidance, Wish};
-use geom::{HullOutline, Vec2, angle, units::deg, wrap};
+use geom::{HeadOnSector, HullOutline, Vec2, angle, units::deg, wrap};
 use planner_api::{Command, Mission, OwnState, Planner, PlannerEvents, Situation};
 
 /// Part of the margin that may be lost before a manoeuvre is chosen anew: what the prediction and
@@ -216,6 +216,10 @@ impl Planner for ZhuangCorrected {
 
     fn events(&self) -> PlannerEvents {
         self.events
+    }
+
+    fn head_on_sector(&self) -> Option<HeadOnSector> {
+        Some(HeadOnSector::wide(deg(self.options.head_on_half_angle_deg)))
     }
 }
 

@@ -224,4 +224,8 @@ impl Planner for KuwataVo {
         self.cones = cones;
         Command::velocity(velocity_mps)
     }
+
+    fn head_on_sector(&self) -> Option<HeadOnSector> {
+        Some(HeadOnSector::wide(deg(0.5 * self.options.head_on_width_deg)))
+    }
 }

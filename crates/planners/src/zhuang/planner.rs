@@ -11,7 +11,7 @@ use super::options::{Equations, Memory, Reference, Resume, ZhuangOptions};
 use super::strategy::{self, PrintedAngles};
 use crate::clearance::Clearance;
 use crate::guidance::Guidance;
-use geom::{EncounterClass, math, units, wrap};
+use geom::{EncounterClass, HeadOnSector, math, units, wrap};
 use planner_api::{Command, Mission, Planner, PlannerEvents, Situation};
 use std::f64::consts::FRAC_PI_2;
 
@@ -108,6 +108,11 @@ impl Planner for Zhuang {
 
     fn events(&self) -> PlannerEvents {
         self.events
+    }
+
+    fn head_on_sector(&self) -> Option<HeadOnSector> {
+        let half_angle_rad = units::deg(self.options.head_on_half_angle_deg);
+        Some(HeadOnSector { half_angle_rad, reciprocal_rad: half_angle_rad })
     }
 }
 

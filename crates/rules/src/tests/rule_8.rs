@@ -60,6 +60,16 @@ fn dribble_counts_small_turns_before_the_course_is_off() {
     expect(&steps(&[]), Check::R8Dribble, NotApplicable, "");
 }
 
+/// The offset of section 6 is one of course: a ship that has halved her speed may still dribble.
+#[test]
+fn slowing_down_does_not_end_a_dribble() {
+    let turn = |script: Script, _| script.turn(8.0, 4.0).hold(17.0);
+    let slow = own(6.0).hold(40.0).speed_to(2.5, 0.5).hold(10.0);
+    let script = (0..3).fold(slow, turn).hold(400.0);
+    let judgement = judge(&Scene::new(script, head_on()));
+    expect(&judgement, Check::R8Dribble, Fail, "FAIL-8-DRIBBLE");
+}
+
 #[test]
 fn time_by_stages() {
     let at = |t_s: f64| {
@@ -132,9 +142,4 @@ fn lookout_reads_declared_alerts_only() {
     let mut trace = never.trace();
     trace.alerts = vec![Alert { t_s: 50.0, target: 0, rule: String::new() }];
     expect(&judge_by(rules(), &trace), Check::R5R7, Warn, "FALSE-ALERT");
-}
-
-#[test]
-fn safe_speed_needs_a_stopping_model() {
-    expect(&head_on_turn(60.0, 40.0), Check::R6, NotEvaluated, "NO-STOPPING-MODEL");
 }

@@ -26,6 +26,21 @@ fn a_turn_forced_by_another_target_is_excused() {
     expect(&judge(&alone), Check::R17Hold, Fail, "FAIL-17AI");
 }
 
+/// The same by speed; and what is left of the penalties in the score is a fifth (C_x,gw).
+#[test]
+fn slowing_down_forced_by_another_target_is_excused() {
+    let script = || own(6.0).hold(100.0).speed_to(1.5, 0.2).hold(600.0);
+    let alone = judge(&Scene::new(script(), from_port()));
+    expect(&alone, Check::R17Hold, Fail, "FAIL-17AI");
+    let both = judge(&Scene::new(script(), from_port()).and(from_starboard()));
+    let excused = of(&both, 0, Check::R17Hold);
+    assert_eq!((excused.status, &*excused.detail), (Pass, "EXCUSED-BY-TARGET-1"));
+    let safety = of(&both, 0, Check::Safe).score.unwrap();
+    // half of the penalty by speed in each stage in which it was cut: 1 - 0.2 / 2
+    let share = excused.score.unwrap() / safety;
+    assert!((share - 0.9).abs() < 1e-9 || (share - 0.81).abs() < 1e-9, "{share}");
+}
+
 #[test]
 fn a_turn_that_endangers_a_third_ship_fails_8c() {
     // own ship turns away from the one and into the course of another that was to pass wide

@@ -9,6 +9,7 @@ mod helm;
 mod kinematic;
 mod nomoto;
 mod slew;
+mod stopping;
 mod three_dof;
 pub mod trial;
 mod viknes;
@@ -19,6 +20,7 @@ pub use helm::Helm;
 pub use kinematic::Kinematic;
 pub use nomoto::{Gains, Nomoto};
 pub use slew::{Actuators, Rates, Steering};
+pub use stopping::stopping;
 pub use three_dof::{Autopilot, Damping, MassMatrix, Propulsion, ThreeDof};
 pub use viknes::VIKNES;
 

@@ -101,6 +101,7 @@ impl Script {
             yaw_rate_radps_max: deg(6.0),
             speed_mps_max: 12.0,
             steerage_mps: Some(0.5),
+            stopping: None,
         };
         let mut track = ShipTrack::with_capacity(ship, samples);
         let (mut n, mut e) = (self.north_m, self.east_m);
@@ -180,6 +181,7 @@ fn sailed(own: &Script, targets: &[Script], samples: usize) -> Trace {
         alerts: vec![],
         events: PlannerEvents::default(),
         contact: None,
+        planner_sector: None,
         planner_detail: None,
         goal_reached: false,
         nominal: None,
