@@ -42,10 +42,10 @@ pub trait Planner: Send {
     }
 
     /// The head-on sector by which it classifies meetings, for a planner that has one. The judge's
-    /// class decides all the same; where the two differ the encounter is listed, and the rates under
-    /// the planner's class stand beside the judge's. The judge asks for the bearing, the contact
-    /// angle and the departure from reciprocal headings; a planner that asks otherwise states the
-    /// nearest sector.
+    /// class decides all the same; where the two differ the run says so, and what fails under the
+    /// planner's class stands beside the judge's verdicts. The judge asks for the bearing, the
+    /// contact angle and the departure from reciprocal headings; a planner that asks otherwise
+    /// states the nearest sector.
     fn head_on_sector(&self) -> Option<HeadOnSector> {
         None
     }

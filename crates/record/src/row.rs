@@ -29,7 +29,8 @@ pub struct RunRow {
     /// Class that decides, found by the judge for the pair that came closest; absent if risk never
     /// opened.
     pub class: Option<EncounterClass>,
-    /// Class of that pair by the head-on sector that the planner states; absent where it states none.
+    /// Class of that pair by the head-on sector that the planner states; absent where it states
+    /// none.
     pub class_by_planner: Option<EncounterClass>,
     /// Checks that fail under the planner's classes, joined by `+` (`none` where none
     /// fails), where one of these differs from the judge's; absent where none does.

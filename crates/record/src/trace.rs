@@ -42,8 +42,8 @@ pub struct Trace {
     pub alerts: Vec<Alert>,
     /// What the planner counted.
     pub events: PlannerEvents,
-    /// The head-on sector by which the planner says that it classifies; absent where it states none.
-    /// A declaration, no event of the run: no part of the digest.
+    /// The head-on sector by which the planner says that it classifies; absent where it states
+    /// none. A declaration, no event of the run: no part of the digest.
     pub planner_sector: Option<HeadOnSector>,
     /// The last words of a planner that failed. No part of the digest.
     pub planner_detail: Option<String>,
@@ -98,9 +98,9 @@ impl Stopping {
     /// Number of declared speeds.
     pub const STEPS: usize = 8;
 
-    /// Track reach from a speed, metres. Straight lines between the declared speeds, which lie above
-    /// the curve of a ship that takes longer the faster she goes; beyond the highest with the square
-    /// of the speed.
+    /// Track reach from a speed, metres. Straight lines between the declared speeds, which lie
+    /// above the curve of a ship that takes longer the faster she goes; beyond the highest with the
+    /// square of the speed.
     pub fn distance_m(&self, speed_mps: f64) -> f64 {
         let at = (speed_mps / self.speed_mps_max).max(0.0) * Self::STEPS as f64;
         if at >= Self::STEPS as f64 {

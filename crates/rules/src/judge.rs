@@ -10,6 +10,7 @@ use crate::case::{Case, role_of};
 use crate::facts::{by_planner, facts};
 use crate::flaws::{own_flaw, target_flaw, unreadable};
 use crate::life::PairLife;
+use crate::other_class::{complete_planner_class, excuse, note_planner_class};
 use crate::risk::RiskScanner;
 use crate::ruleset::RuleSet;
 use crate::ruling::Ruling;
@@ -176,7 +177,8 @@ impl<'a> Bench<'a> {
         (life.rules.manoeuvre.attribution_lead_s / life.trace.sample_s) as usize
     }
 
-    /// Another target that own ship owed giving way when she turned, or slowed, if she owed this one nothing.
+    /// Another target that own ship owed giving way when she turned or slowed, if she owed this one
+    /// nothing.
     fn forced_by(
         &self,
         life: &PairLife<'_>,
@@ -294,25 +296,6 @@ struct Roles {
     by_planner_class: Option<Vec<Verdict>>,
 }
 
-/// Keeps what a pair's verdicts are under the planner's class until the run is judged.
-fn note_planner_class(out: &mut Judgement, verdicts: Option<Vec<Verdict>>) {
-    if let Some(verdicts) = verdicts {
-        out.by_planner_class.get_or_insert_default().extend(verdicts);
-    }
-}
-
-/// The whole run under the planner's classes: where they are the judge's, his verdicts.
-fn complete_planner_class(judgement: &mut Judgement) {
-    let Some(theirs) = judgement.by_planner_class.take() else { return };
-    let mut all = judgement.verdicts.clone();
-    for verdict in theirs {
-        let key = |verdict: &Verdict| (verdict.check, verdict.target);
-        let same = all.iter_mut().find(|other| key(other) == key(&verdict));
-        *same.expect("every pair has every check") = verdict;
-    }
-    judgement.by_planner_class = Some(all);
-}
-
 /// Every check of one case, in the order of `Check::ALL`; SAFE last in time, because a stand-on
 /// ship's depends on whether she broke a rule herself.
 fn all_checks(case: &Case<'_>) -> Vec<Verdict> {
@@ -370,22 +353,6 @@ fn settle(case: &Case<'_>, mut verdict: Verdict) -> Verdict {
         verdict.detail = "RESOLVED_EARLY".into();
     }
     verdict
-}
-
-/// Turns failures into warnings where another class within the doubt gives a pass.
-fn excuse(verdicts: &mut [Verdict], under_other: &[Verdict]) {
-    let role_rule = |check: Check| !matches!(check, Check::Safe | Check::LastMinute);
-    let fails = |verdict: &Verdict| verdict.status == Status::Fail && role_rule(verdict.check);
-    if under_other.iter().any(fails) {
-        return;
-    }
-    for (verdict, other) in verdicts.iter_mut().zip(under_other) {
-        let passes = matches!(other.status, Status::Pass | Status::NotApplicable);
-        if verdict.status == Status::Fail && role_rule(verdict.check) && passes {
-            verdict.status = Status::Warn;
-            verdict.detail = "AMBIGUOUS".into();
-        }
-    }
 }
 
 /// The first sample at which the ships see one another; 0 where they always do.

@@ -14,6 +14,7 @@ mod flaws;
 mod judge;
 mod last_minute;
 mod life;
+mod other_class;
 mod pair;
 mod risk;
 mod rule_05_07_lookout;

@@ -2,10 +2,10 @@
 //!
 //! Rule 19(b): "Every vessel shall proceed at a safe speed adapted to the prevailing circumstances
 //! and conditions of restricted visibility."
-//! Reading: from the onset of risk until the other comes in sight or is passed, the distance in which
-//! own ship stops from her speed is not more than a share of the visual range: the convention "half
-//! the visibility", of which no source gives the value. It needs the stopping model that own ship
-//! declares; without one it is not evaluated.
+//! Reading: from the onset of risk until the other comes in sight or is passed, the distance in
+//! which own ship stops from her speed is not more than a share of the visual range: the convention
+//! "half the visibility", of which no source gives the value. It needs the stopping model that own
+//! ship declares; without one it is not evaluated.
 //! Source: rules specification, section 9 (R19); the share is this project's.
 
 use crate::case::Case;

@@ -1,8 +1,8 @@
 //! The stopping distance that a vessel declares: her crash stop, from equal steps of speed.
 //!
-//! A judge of safe speed (Rules 6 and 19(b)) needs it. It is what the trial of [`super::trial`] says
-//! of the same model, in calm water, so that it can be read off `manoeuvres`; wind and current are
-//! not in it. A kinematic ship's is in closed form.
+//! A judge of safe speed (Rules 6 and 19(b)) needs it. It is what the trial of [`super::trial`]
+//! says of the same model, in calm water, so that it can be read off `manoeuvres`; wind and current
+//! are not in it. A kinematic ship's is in closed form.
 
 use super::trial::crash_stop;
 use super::{MODELS, Model};
