@@ -121,8 +121,30 @@ pub(crate) fn not_claimed(input: &ReportInput, whole: &Group) -> Vec<String> {
             disagreements(&input.summary.second_judge)
         ));
     }
+    sentences.extend(by_planner_class(&input.summary.planner_class, summary.n));
     sentences.extend(input.card.not_claimed.iter().cloned());
     sentences
+}
+
+/// The rates under the planner's own class, beside the judge's, where a check's differ.
+fn by_planner_class(class: &summary::PlannerClass, n: u64) -> Option<String> {
+    if class.disagree == 0 {
+        return None;
+    }
+    let rate = |k: u64| crate::number::significant(k as f64 / n as f64, 3);
+    let mut lines = Vec::new();
+    for (name, [judge, planner]) in &class.fails {
+        let Some(title) = Check::from_name(name).map(Check::title) else { continue };
+        lines.push(format!("{title} {} instead of {}", rate(*planner), rate(*judge)));
+    }
+    let what = if lines.is_empty() { "no rate".to_owned() } else { lines.join("; ") };
+    Some(format!(
+        "The planner's own class of an encounter is not the judge's in {} of {} (column \
+         fails_by_planner_class); the judge's decides. Under the planner's, the rates of failure \
+         would be: {what}.",
+        count(class.disagree),
+        encounters(class.stated),
+    ))
 }
 
 /// Which encounters the judges disagree on, the first few of them.

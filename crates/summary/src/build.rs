@@ -2,7 +2,7 @@
 
 use crate::summary::SCHEMA;
 use crate::{
-    AvoidableRates, BoundedRate, CpaSummary, PairedCounts, PairedRates, SecondJudge,
+    AvoidableRates, BoundedRate, CpaSummary, PairedCounts, PairedRates, PlannerClass, SecondJudge,
     StratumSummary, Summary, SummaryHead, Tallies, Tally, TimeSummary, Times,
 };
 use record::{Check, EncounterClass, Outcome, Status};
@@ -27,6 +27,7 @@ impl Summary {
             disagree: sum(|tally| tally.judges_disagree),
             ids: Vec::new(),
         };
+        let planner_class = planner_class(tallies);
         let mut strata: Vec<StratumSummary> = listed
             .iter()
             .map(|name| StratumSummary::new(name, tallies.stratum(name).unwrap_or(&empty)))
@@ -46,9 +47,31 @@ impl Summary {
             root_digest: head.root_digest,
             ended_by_wall_clock: strata.iter().map(StratumSummary::ended_by_wall_clock).sum(),
             second_judge,
+            planner_class,
             strata,
         }
     }
+}
+
+/// The failures under the judge's and under the planner's classes, over all strata.
+fn planner_class(tallies: &Tallies) -> PlannerClass {
+    let mut found = PlannerClass::default();
+    let mut theirs = [0; Check::COUNT];
+    let mut judges = [0; Check::COUNT];
+    for (_, tally) in tallies.iter() {
+        found.stated += tally.planner_class_stated;
+        found.disagree += tally.class_disagreements;
+        for check in Check::ALL {
+            theirs[check as usize] += tally.fails_by_planner_class[check as usize];
+            judges[check as usize] += tally.check(check, Status::Fail);
+        }
+    }
+    let counts = Check::ALL.into_iter().zip(judges.into_iter().zip(theirs));
+    let differ = counts.filter(|(_, (judge, planner))| judge != planner);
+    found.fails = differ
+        .map(|(check, (judge, planner))| (check.name().to_owned(), [judge, planner]))
+        .collect();
+    found
 }
 
 impl StratumSummary {

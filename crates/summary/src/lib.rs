@@ -24,8 +24,8 @@ pub use fixed_point::FixedSum;
 pub use planner_event::PlannerEvent;
 pub use risk::PairedCounts;
 pub use summary::{
-    AvoidableRates, BoundedRate, CpaSummary, PairedRates, SecondJudge, StratumSummary, Summary,
-    SummaryHead, TimeSummary, list_disagreement,
+    AvoidableRates, BoundedRate, CpaSummary, PairedRates, PlannerClass, SecondJudge,
+    StratumSummary, Summary, SummaryHead, TimeSummary, list_disagreement,
 };
 pub use tallies::Tallies;
 pub use tally::{Tally, UnavoidableEvents};

@@ -41,6 +41,8 @@ pub struct Summary {
     pub ended_by_wall_clock: u64,
     /// What the second judge said of the first.
     pub second_judge: SecondJudge,
+    /// What would have failed under the planner's own classes.
+    pub planner_class: PlannerClass,
     /// One entry for each stratum, in the order of the campaign.
     pub strata: Vec<StratumSummary>,
 }
@@ -55,6 +57,19 @@ pub struct SecondJudge {
     pub disagree: u64,
     /// Their ids in order, the first of them where there are many; the table marks them all.
     pub ids: Vec<String>,
+}
+
+/// How often the planner's own class of an encounter is not the judge's, and what follows from it.
+/// The table marks those runs (`fails_by_planner_class`). The judge's class decides.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlannerClass {
+    /// Runs at risk of a planner that states its head-on sector.
+    pub stated: u64,
+    /// Those in which the class of some target differs.
+    pub disagree: u64,
+    /// Checks whose number of failures differs, by name: under the judge's class, the planner's.
+    pub fails: BTreeMap<String, [u64; 2]>,
 }
 
 /// Ids that `summary.json` lists.

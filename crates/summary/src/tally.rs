@@ -45,6 +45,12 @@ pub struct Tally {
     pub second_judge_asked: u64,
     /// See `second_judge_asked`.
     pub judges_disagree: u64,
+    /// Runs for which the planner states its class.
+    pub planner_class_stated: u64,
+    /// Those in which its class is not the judge's.
+    pub class_disagreements: u64,
+    /// Failures of each check where the planner's class counts, in the order of `Check::ALL`.
+    pub fails_by_planner_class: Vec<u64>,
     /// Sum of the importance weights.
     pub weight_sum: FixedSum,
     /// Sum of their squares.
@@ -113,6 +119,9 @@ impl Default for Tally {
             goal_reached: 0,
             second_judge_asked: 0,
             judges_disagree: 0,
+            planner_class_stated: 0,
+            class_disagreements: 0,
+            fails_by_planner_class: vec![0; Check::COUNT],
             weight_sum: FixedSum::default(),
             weight_square_sum: FixedSum::default(),
             weighted: 0,
@@ -160,6 +169,7 @@ impl Tally {
         self.goal_reached += u64::from(row.goal_reached);
         self.second_judge_asked += u64::from(row.judges_disagree.is_some());
         self.judges_disagree += u64::from(row.judges_disagree == Some(true));
+        self.add_planner_class(row);
         self.add_weight(row.weight);
         self.add_cpa(row);
         self.reaction.add(row.reaction);
@@ -274,6 +284,18 @@ impl Tally {
         }
     }
 
+    fn add_planner_class(&mut self, row: &RunRow) {
+        self.planner_class_stated += u64::from(row.class_by_planner.is_some());
+        let theirs = row.fails_by_planner_class.as_deref();
+        self.class_disagreements += u64::from(theirs.is_some());
+        for (check, count) in Check::ALL.into_iter().zip(&mut self.fails_by_planner_class) {
+            let fails = theirs.map_or(row.check(check).status == Status::Fail, |names| {
+                names.split('+').any(|name| name == check.name())
+            });
+            *count += u64::from(fails);
+        }
+    }
+
     fn add_checks(&mut self, row: &RunRow) {
         let class = &mut self.class_checks[class_index(row.class)];
         class.n += 1;
@@ -308,6 +330,9 @@ impl Tally {
             goal_reached,
             second_judge_asked,
             judges_disagree,
+            planner_class_stated,
+            class_disagreements,
+            fails_by_planner_class,
             weight_sum: _,
             weight_square_sum: _,
             weighted,
@@ -342,9 +367,12 @@ impl Tally {
             goal_reached,
             second_judge_asked,
             judges_disagree,
+            planner_class_stated,
+            class_disagreements,
             weighted,
             cpa_unknown,
         ];
+        counts.extend(fails_by_planner_class);
         counts.extend(outcomes);
         counts.extend(events);
         for class in class_checks {

@@ -68,6 +68,23 @@ fn summary_of(rows: &[RunRow]) -> Summary {
     Summary::new(head(), &tallies, ["head_on"])
 }
 
+/// The judge's class decides; what the planner's would make of it stands beside.
+#[test]
+fn failures_under_the_planners_class_stand_beside_the_judges() {
+    let mut rows: Vec<_> = (0..10).map(|j| row("head_on", j)).collect();
+    for row in &mut rows[..6] {
+        row.class_by_planner = Some(record::EncounterClass::CrossingStbd);
+        row.checks[Check::Turn as usize].status = Status::Fail;
+        row.checks[Check::R15 as usize].status = Status::Pass;
+    }
+    rows[0].fails_by_planner_class = Some("none".to_owned());
+    rows[1].fails_by_planner_class = Some("turn+r15".to_owned());
+    let class = summary_of(&rows).planner_class;
+    assert_eq!((class.stated, class.disagree), (6, 2));
+    let expected = [("r15".to_owned(), [0, 1]), ("turn".to_owned(), [6, 5])];
+    assert_eq!(class.fails, expected.into_iter().collect());
+}
+
 /// Unknown runs stay in n, weigh on the upper bound only, and not twice.
 #[test]
 fn unknown_runs_count_against_the_planner_once() {
