@@ -4,6 +4,7 @@
 
 mod another_repository;
 mod end_to_end;
+mod fit_ais;
 mod golden;
 mod hostile_planners;
 mod judge_again;

@@ -29,6 +29,8 @@ pub struct Columns {
     pub heading: Option<usize>,
     /// Length, metres.
     pub length: Option<usize>,
+    /// Beam, metres.
+    pub width: Option<usize>,
     /// What sends: class A or B, a base station, a mark.
     pub kind: Option<usize>,
 }
@@ -59,6 +61,7 @@ const SOG: &[&str] = &["sog"];
 const COG: &[&str] = &["cog"];
 const HEADING: &[&str] = &["heading"];
 const LENGTH: &[&str] = &["length"];
+const WIDTH: &[&str] = &["width"];
 const KIND: &[&str] = &["typeofmobile"];
 
 impl Columns {
@@ -93,6 +96,7 @@ impl Columns {
             cog: need("the course", COG)?,
             heading: find(HEADING),
             length: find(LENGTH),
+            width: find(WIDTH),
             kind,
         })
     }
@@ -116,18 +120,33 @@ mod tests {
         let columns = Columns::of(solent).unwrap();
         assert_eq!((columns.latitude, columns.cog, columns.sog), (2, 4, 5));
         assert_eq!((columns.length, columns.order), (None, Order::YearFirst));
-        let danish = "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,\
-                      SOG,COG,Heading,IMO,Callsign,Name,Ship type,Cargo type,Width,Length";
-        let columns = Columns::of(danish).unwrap();
-        assert_eq!((columns.time, columns.kind, columns.mmsi), (0, Some(1), 2));
-        assert_eq!((columns.length, columns.order), (Some(16), Order::DayFirst));
-        for american in [
-            "MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading,VesselName,IMO,Status,Length",
-            "mmsi,base_date_time,longitude,latitude,sog,cog,heading,vessel_name,length",
+        let short = "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,SOG,\
+                     COG,Heading,IMO,Callsign,Name,Ship type,Cargo type,Width,Length,Type of \
+                     position fixing device,Draught,Destination,ETA,Data source type";
+        for (danish, count) in [(short.to_owned(), 22), (format!("{short},A,B,C,D"), 26)] {
+            let columns = Columns::of(&danish).unwrap();
+            assert_eq!(columns.count, count);
+            assert_eq!((columns.time, columns.kind, columns.mmsi), (0, Some(1), 2));
+            assert_eq!((columns.sog, columns.cog, columns.heading), (7, 8, Some(9)));
+            assert_eq!((columns.width, columns.length), (Some(15), Some(16)));
+            assert_eq!(columns.order, Order::DayFirst);
+        }
+        for (american, latitude) in [
+            (
+                "MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading,VesselName,IMO,CallSign,VesselType,\
+                 Status,Length,Width,Draft,Cargo,TransceiverClass",
+                2,
+            ),
+            (
+                "mmsi,base_date_time,longitude,latitude,sog,cog,heading,vessel_name,imo,call_sign,\
+                 vessel_type,status,length,width,draft,cargo,transceiver",
+                3,
+            ),
         ] {
             let columns = Columns::of(american).unwrap();
-            assert_eq!((columns.time, columns.mmsi), (1, 0), "{american}");
-            assert!(columns.heading.is_some() && columns.length.is_some());
+            assert_eq!((columns.time, columns.mmsi, columns.latitude), (1, 0, latitude));
+            assert_eq!((columns.length, columns.width), (Some(12), Some(13)), "{american}");
+            assert_eq!((columns.heading, columns.order), (Some(6), Order::YearFirst));
         }
     }
 

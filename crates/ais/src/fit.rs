@@ -64,8 +64,9 @@ struct Law {
     b: f64,
 }
 
-/// Fits a law; `None` for a sample that is too small or has no spread.
-pub fn fit(sample: &[f64], stream: &mut Stream) -> Option<Fitted> {
+/// Fits a law; `None` for a sample that is too small or has no spread. Blocks of `together` values
+/// belong together and are drawn together for the intervals.
+pub fn fit(sample: &[f64], together: usize, stream: &mut Stream) -> Option<Fitted> {
     let mut sorted = sample.to_vec();
     sorted.sort_by(f64::total_cmp);
     let (&low, &high) = (sorted.first()?, sorted.last()?);
@@ -81,7 +82,7 @@ pub fn fit(sample: &[f64], stream: &mut Stream) -> Option<Fitted> {
         n: sorted.len(),
         distance,
         p_value: p_value(&law, sorted.len(), distance, stream),
-        parameters: intervals(&law, &sorted, stream),
+        parameters: intervals(&law, sample, together, stream),
         range: [low, high],
     })
 }
@@ -99,6 +100,25 @@ impl Fitted {
             Form::Lognormal => {
                 Distribution::Lognormal(Lognormal { median: value(0), sigma: value(1), low, high })
             }
+        }
+    }
+}
+
+impl Fitted {
+    /// Density of the law at a value, before the cut at the ends of the sample.
+    pub fn density(&self, x: f64) -> f64 {
+        let value = |k: usize| self.parameters[k].value;
+        let bell =
+            |z: f64, spread: f64| math::exp(-0.5 * z * z) / (spread * std::f64::consts::TAU.sqrt());
+        match self.form {
+            Form::Uniform if (self.range[0]..=self.range[1]).contains(&x) => {
+                1.0 / (self.range[1] - self.range[0])
+            }
+            Form::Normal => bell((x - value(0)) / value(1), value(1)),
+            Form::Lognormal if x > 0.0 => {
+                bell((math::ln(x) - math::ln(value(0))) / value(1), value(1)) / x
+            }
+            Form::Uniform | Form::Lognormal => 0.0,
         }
     }
 }
@@ -181,11 +201,12 @@ fn p_value(law: &Law, n: usize, distance: f64, stream: &mut Stream) -> f64 {
     (farther.count() + 1) as f64 / (RESAMPLES + 1) as f64
 }
 
-fn intervals(law: &Law, sorted: &[f64], stream: &mut Stream) -> Vec<Parameter> {
+fn intervals(law: &Law, values: &[f64], together: usize, stream: &mut Stream) -> Vec<Parameter> {
+    let blocks: Vec<&[f64]> = values.chunks(together.max(1)).collect();
     let mut drawn: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
     for _ in 0..RESAMPLES {
         let mut sample: Vec<f64> =
-            (0..sorted.len()).map(|_| sorted[stream.below(sorted.len())]).collect();
+            (0..blocks.len()).flat_map(|_| blocks[stream.below(blocks.len())]).copied().collect();
         sample.sort_by(f64::total_cmp);
         if let Some(again) = Law::of(law.form, &sample) {
             for (values, (_, value)) in drawn.iter_mut().zip(again.parameters()) {
@@ -223,7 +244,7 @@ mod tests {
     fn a_known_law_is_found_again_within_its_intervals() {
         let mut draw = stream(0);
         let lognormal: Vec<f64> = (0..600).map(|_| math::exp(2.0 + 0.5 * draw.normal())).collect();
-        let fitted = fit(&lognormal, &mut stream(1)).unwrap();
+        let fitted = fit(&lognormal, 1, &mut stream(1)).unwrap();
         assert_eq!(fitted.form, Form::Lognormal);
         assert!(fitted.p_value > 0.05, "{}", fitted.p_value);
         for (parameter, truth) in fitted.parameters.iter().zip([math::exp(2.0), 0.5]) {
@@ -232,7 +253,7 @@ mod tests {
             assert!(high - low < 0.2 * truth, "{parameter:?}");
         }
         let uniform: Vec<f64> = (0..600).map(|_| draw.uniform_in(-3.0, 4.0)).collect();
-        assert_eq!(fit(&uniform, &mut stream(2)).unwrap().form, Form::Uniform);
+        assert_eq!(fit(&uniform, 1, &mut stream(2)).unwrap().form, Form::Uniform);
     }
 
     /// Two heaps: none of the forms fits, and the p-value says so.
@@ -241,13 +262,13 @@ mod tests {
         let mut draw = stream(4);
         let sample: Vec<f64> =
             (0..300).map(|k| if k % 2 == 0 { 5.0 } else { 20.0 } + 0.5 * draw.normal()).collect();
-        let fitted = fit(&sample, &mut stream(5)).unwrap();
+        let fitted = fit(&sample, 1, &mut stream(5)).unwrap();
         assert!(fitted.p_value < 0.01, "{fitted:?}");
     }
 
     #[test]
     fn a_handful_is_not_fitted() {
-        assert_eq!(fit(&[1.0, 2.0, 3.0], &mut stream(6)), None);
-        assert_eq!(fit(&[2.0; 30], &mut stream(6)), None);
+        assert_eq!(fit(&[1.0, 2.0, 3.0], 1, &mut stream(6)), None);
+        assert_eq!(fit(&[2.0; 30], 1, &mut stream(6)), None);
     }
 }

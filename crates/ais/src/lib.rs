@@ -9,7 +9,9 @@ pub mod columns;
 pub mod document;
 pub mod fit;
 pub mod meetings;
+pub mod model_file;
 pub mod read;
+pub mod replay;
 pub mod time;
 pub mod tracks;
 

@@ -75,6 +75,20 @@ impl Meeting {
         }
         (closing_mps.x * away_m.y - closing_mps.y * away_m.x) / speed_mps
     }
+
+    /// When that would have been, seconds from the start; not positive where they drew apart.
+    pub fn tcpa_s(&self) -> f64 {
+        let [own, target] = &self.start;
+        let away_m = target.position_m - own.position_m;
+        let closing_mps = own.velocity_mps - target.velocity_mps;
+        let square = closing_mps.norm_squared();
+        if square <= 0.0 { 0.0 } else { away_m.dot(&closing_mps) / square }
+    }
+
+    /// How far apart they were at the start, metres.
+    pub fn start_range_m(&self) -> f64 {
+        (self.start[1].position_m - self.start[0].position_m).norm()
+    }
 }
 
 /// Finds the encounters.
@@ -173,7 +187,7 @@ mod tests {
                 cog_rad: None,
             }
         });
-        Track { mmsi, length_m: None, points: points.collect() }
+        Track { mmsi, length_m: None, width_m: None, points: points.collect() }
     }
 
     #[test]

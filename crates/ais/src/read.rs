@@ -26,6 +26,10 @@ pub struct Report {
     pub cog_rad: Option<f64>,
     /// Length, metres; absent where it is not available.
     pub length_m: Option<f64>,
+    /// Beam, metres; absent where it is not available.
+    pub width_m: Option<f64>,
+    /// Line of the file, from 1.
+    pub line: u64,
 }
 
 /// How often something happened, and the line of the file where it happened first.
@@ -53,6 +57,8 @@ pub struct Rows {
     pub rejected: Reasons,
     /// Reports without a course.
     pub without_course: u64,
+    /// Reports without a heading, where the file has one at all.
+    pub without_heading: u64,
 }
 
 /// Largest speed that an AIS report can say, knots; 102.3 is "not available".
@@ -65,16 +71,24 @@ const SOG_KN_END: f64 = 102.25;
 pub fn read(text: &str) -> Result<Rows, ColumnsError> {
     let mut lines = text.lines();
     let columns = Columns::of(lines.next().unwrap_or_default())?;
-    let mut all =
-        Rows { columns, rows: 0, reports: Vec::new(), rejected: Reasons::new(), without_course: 0 };
+    let mut all = Rows {
+        columns,
+        rows: 0,
+        reports: Vec::new(),
+        rejected: Reasons::new(),
+        without_course: 0,
+        without_heading: 0,
+    };
     for (line, number) in lines.zip(2..) {
         if line.trim().is_empty() {
             continue;
         }
         all.rows += 1;
-        match report(line, &columns) {
-            Ok(report) => {
+        match report(line, number, &columns) {
+            Ok((report, heading_deg)) => {
                 all.without_course += u64::from(report.cog_rad.is_none());
+                let lacks = columns.heading.is_some() && heading_deg.is_none();
+                all.without_heading += u64::from(lacks);
                 all.reports.push(report);
             }
             Err(reason) => count(&mut all.rejected, reason, number),
@@ -88,8 +102,9 @@ pub(crate) fn count(reasons: &mut Reasons, reason: &'static str, line: u64) {
     entry.count += 1;
 }
 
-fn report(line: &str, columns: &Columns) -> Result<Report, &'static str> {
-    let fields = fields(line);
+/// The report and the heading of a row, or why it is not used.
+fn report(row: &str, line: u64, columns: &Columns) -> Result<(Report, Option<f64>), &'static str> {
+    let fields = fields(row);
     if fields.len() < columns.count {
         return Err("fewer fields than columns");
     }
@@ -103,6 +118,9 @@ fn report(line: &str, columns: &Columns) -> Result<Report, &'static str> {
     let t_s = time::seconds(&fields[columns.time], columns.order).ok_or("no time")?;
     let mmsi = fields[columns.mmsi].trim().parse::<u64>().ok().filter(|&mmsi| mmsi > 0);
     let mmsi = mmsi.ok_or("no identity")?;
+    if !is_ship(mmsi) {
+        return Err("sent by no ship");
+    }
     let lat_deg = number(columns.latitude).ok_or("no position")?;
     let lon_deg = number(columns.longitude).ok_or("no position")?;
     // 91 and 181 are "not available"
@@ -112,16 +130,28 @@ fn report(line: &str, columns: &Columns) -> Result<Report, &'static str> {
     let sog_kn =
         number(columns.sog).filter(|kn| (0.0..SOG_KN_END).contains(kn)).ok_or("no speed")?;
     let cog = number(columns.cog).filter(|cog| (0.0..360.0).contains(cog));
-    let length = columns.length.and_then(number).filter(|&m| m > 0.0);
-    Ok(Report {
+    // 511 is "not available"
+    let heading = columns.heading.and_then(number).filter(|deg| (0.0..360.0).contains(deg));
+    let metres = |at: Option<usize>| at.and_then(number).filter(|&m| m > 0.0);
+    let report = Report {
         mmsi,
         t_s,
         lat_deg,
         lon_deg,
         sog_mps: knots(sog_kn),
         cog_rad: cog.map(deg),
-        length_m: length,
-    })
+        length_m: metres(columns.length),
+        width_m: metres(columns.width),
+        line,
+    };
+    Ok((report, heading))
+}
+
+/// Whether an identity is a ship's (ITU-R M.585): nine digits, and neither a coast station (00), a
+/// group (0), an aircraft (111), a rescue transmitter (970, 972, 974) nor a mark (99).
+fn is_ship(mmsi: u64) -> bool {
+    (100_000_000..1_000_000_000).contains(&mmsi)
+        && !matches!(mmsi / 1_000_000, 111 | 970 | 972 | 974 | 990..=999)
 }
 
 fn value(field: &str) -> Option<f64> {
@@ -156,8 +186,8 @@ mod tests {
     #[test]
     fn what_is_not_available_is_not_used() {
         let rows = rows(
-            "1,2023-01-01T00:00:00,50.0,1.0,10.0,360.0,511,\"A, B\",\n\
-             1,2023-01-01T00:00:10,50.0,1.0,10.0,45.0,511,AB,120\n",
+            "211000001,2023-01-01T00:00:00,50.0,1.0,10.0,360.0,511,\"A, B\",\n\
+             211000001,2023-01-01T00:00:10,50.0,1.0,10.0,45.0,511,AB,120\n",
         );
         assert_eq!((rows.rows, rows.reports.len(), rows.without_course), (2, 2, 1));
         assert_eq!(rows.reports[0].length_m, None);
@@ -169,12 +199,12 @@ mod tests {
     #[test]
     fn rejected_rows_are_counted_by_reason_with_the_first_line() {
         let rows = rows(
-            "1,2023-01-01T00:00:00,50.0,1.0,102.3,45.0,0,A,1\n\
-             1,2023-01-01T00:00:00,91.0,181.0,9.0,45.0,0,A,1\n\
-             1,Unknown,50.0,1.0,9.0,45.0,0,A,1\n\
+            "211000001,2023-01-01T00:00:00,50.0,1.0,102.3,45.0,0,A,1\n\
+             211000001,2023-01-01T00:00:00,91.0,181.0,9.0,45.0,0,A,1\n\
+             211000001,Unknown,50.0,1.0,9.0,45.0,0,A,1\n\
              x,2023-01-01T00:00:00,50.0,1.0,9.0,45.0,0,A,1\n\
-             1,2023-01-01T00:00:00,50.0,1.0\n\
-             1,2023-01-01T00:00:00,50.0,1.0,,45.0,0,A,1\n",
+             211000001,2023-01-01T00:00:00,50.0,1.0\n\
+             211000001,2023-01-01T00:00:00,50.0,1.0,,45.0,0,A,1\n",
         );
         assert_eq!(rows.reports.len(), 0);
         let said: Vec<_> = rows.rejected.iter().map(|(r, c)| (*r, c.count, c.first_line)).collect();
@@ -188,6 +218,16 @@ mod tests {
                 ("no time", 1, 4),
             ]
         );
+    }
+
+    /// Identities of a ship, a handheld set, a coast station, a mark, a lifeboat's transmitter, a
+    /// rescue aircraft, and one with a digit too few.
+    #[test]
+    fn identities_say_what_is_a_ship() {
+        let ships = [219_000_123, 812_345_678, 100_000_001];
+        assert!(ships.into_iter().all(is_ship));
+        let others = [2_190_045, 992_191_234, 970_123_456, 111_219_501, 21_900_012];
+        assert!(!others.into_iter().any(is_ship));
     }
 
     #[test]

@@ -12,6 +12,8 @@ pub struct Track {
     pub mmsi: u64,
     /// Length, metres, where one of her reports says it: the largest.
     pub length_m: Option<f64>,
+    /// Beam likewise.
+    pub width_m: Option<f64>,
     /// Her reports, earliest first; no two at one time.
     pub points: Vec<Point>,
 }
@@ -43,13 +45,21 @@ pub fn tracks(reports: &[Report], reasons: &mut Reasons) -> Vec<Track> {
         by_ship.entry(report.mmsi).or_default().push(report);
     }
     let tracks = by_ship.into_iter().map(|(mmsi, mut reports)| {
-        let disorder = reports.windows(2).filter(|pair| pair[1].t_s < pair[0].t_s).count();
-        note(reasons, "times out of order, put right", disorder);
+        for pair in reports.windows(2).filter(|pair| pair[1].t_s < pair[0].t_s) {
+            note(reasons, "times out of order, put right", pair[1].line);
+        }
         reports.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        let all = reports.len();
-        reports.dedup_by(|later, first| later.t_s <= first.t_s);
-        note(reasons, "a second report at the same time", all - reports.len());
-        let length_m = reports.iter().filter_map(|r| r.length_m).reduce(f64::max);
+        reports.dedup_by(|later, first| {
+            let same = later.t_s <= first.t_s;
+            if same {
+                note(reasons, "a second report at the same time", later.line);
+            }
+            same
+        });
+        let largest = |of: fn(&Report) -> Option<f64>| {
+            reports.iter().filter_map(|report| of(report)).reduce(f64::max)
+        };
+        let (length_m, width_m) = (largest(|r| r.length_m), largest(|r| r.width_m));
         let points: Vec<Point> = reports
             .iter()
             .map(|r| Point {
@@ -60,17 +70,20 @@ pub fn tracks(reports: &[Report], reasons: &mut Reasons) -> Vec<Track> {
             })
             .collect();
         let tame = tame(&points);
-        note(reasons, "a wild position", points.len() - tame.len());
-        Track { mmsi, length_m, points: tame }
+        for (report, _) in reports.iter().zip(&tame).filter(|(_, tame)| !**tame) {
+            note(reasons, "a wild position", report.line);
+        }
+        let points = points.iter().zip(&tame).filter(|(_, tame)| **tame);
+        Track { mmsi, length_m, width_m, points: points.map(|(point, _)| *point).collect() }
     });
     tracks.collect()
 }
 
-fn note(reasons: &mut Reasons, reason: &'static str, count: usize) {
-    if count > 0 {
-        let entry = reasons.entry(reason).or_insert(Counted { count: 0, first_line: 0 });
-        entry.count += count as u64;
-    }
+/// Counts a reason; ships come one after another, so its first line in the file is the least.
+fn note(reasons: &mut Reasons, reason: &'static str, line: u64) {
+    let entry = reasons.entry(reason).or_insert(Counted { count: 0, first_line: line });
+    entry.count += 1;
+    entry.first_line = entry.first_line.min(line);
 }
 
 /// Medians of latitude and longitude: one wild position does not move them.
@@ -83,22 +96,22 @@ fn middle(reports: &[Report]) -> Option<Geographic> {
     Some(Geographic { lat_deg: median(|r| r.lat_deg)?, lon_deg: median(|r| r.lon_deg)? })
 }
 
-/// Points that a ship could have come to from one before or gone from to one after. A position
+/// Which points a ship could have come to from one before or gone from to one after. A position
 /// that is far from all of them is wild.
-fn tame(points: &[Point]) -> Vec<Point> {
+fn tame(points: &[Point]) -> Vec<bool> {
     let can = |a: &Point, b: &Point| {
         let most_m = SPEED_MPS_MAX * (b.t_s - a.t_s) + POSITION_ERROR_M;
         (b.position_m - a.position_m).norm() <= most_m
     };
     // two on either side, so that the neighbour of a wild one is not taken for wild
-    let keep = |&k: &usize| {
+    let keep = |k: usize| {
         let mut before = points[k.saturating_sub(2)..k].iter();
         let mut after = points[k + 1..points.len().min(k + 3)].iter();
         points.len() == 1
             || before.any(|other| can(other, &points[k]))
             || after.any(|other| can(&points[k], other))
     };
-    (0..points.len()).filter(keep).map(|k| points[k]).collect()
+    (0..points.len()).map(keep).collect()
 }
 
 /// Where a ship was between two reports, and how she moved.
@@ -123,11 +136,12 @@ impl Track {
         let before = self.points.get(after.checked_sub(1)?)?;
         let after = self.points.get(after)?;
         let apart_s = after.t_s - before.t_s;
-        if apart_s > GAP_S_MAX {
+        let way_m = after.position_m - before.position_m;
+        // two ships under one identity are in two places: nothing is said between them
+        if apart_s > GAP_S_MAX || way_m.norm() > SPEED_MPS_MAX * apart_s + POSITION_ERROR_M {
             return None;
         }
         let share = (t_s - before.t_s) / apart_s;
-        let way_m = after.position_m - before.position_m;
         Some(Fix {
             position_m: before.position_m + way_m * share,
             velocity_mps: way_m / apart_s,
@@ -147,7 +161,17 @@ mod tests {
     use super::*;
 
     fn report(t_s: f64, lon_deg: f64) -> Report {
-        Report { mmsi: 7, t_s, lat_deg: 0.0, lon_deg, sog_mps: 5.0, cog_rad: None, length_m: None }
+        Report {
+            mmsi: 7,
+            t_s,
+            lat_deg: 0.0,
+            lon_deg,
+            sog_mps: 5.0,
+            cog_rad: None,
+            length_m: None,
+            width_m: None,
+            line: 2 + t_s as u64,
+        }
     }
 
     /// 0.0001 degrees of longitude are 11.13 m at the equator.
@@ -168,6 +192,8 @@ mod tests {
         assert_eq!(reasons["a wild position"].count, 1);
         assert_eq!(reasons["a second report at the same time"].count, 1);
         assert_eq!(reasons["times out of order, put right"].count, 1);
+        let lines = ["a wild position", "times out of order, put right"];
+        assert_eq!(lines.map(|reason| reasons[reason].first_line), [32, 2]);
         let fix = tracks[0].at(5.0).unwrap();
         assert!((fix.velocity_mps.y - 1.113_195).abs() < 1e-4, "{:?}", fix.velocity_mps);
         assert_eq!(tracks[0].at(41.0), None);

@@ -1,6 +1,8 @@
 //! A small file of our own from rows to laws: two forms of the same traffic give the same model.
 
-use ais::document::{ABSENT, TOO_FEW, campaign, model, report, situations};
+use ais::document::{ABSENT, TOO_FEW, model, report};
+use ais::model_file::{Source, campaign};
+use ais::replay::replay;
 use record::Seed;
 use std::fmt::Write as _;
 
@@ -16,8 +18,8 @@ fn traffic(line: impl Fn(u64, u64, f64, f64, f64, f64) -> String) -> String {
             // 111,132 m and 63,994 m are close to a degree of latitude and longitude at 55 degrees
             let north_deg = 55.0 - north_mps * left_s / 111_320.0;
             let west_deg = 11.0 + (west_mps * left_s + 25.0 * k as f64) / 63_994.0;
-            text += &line(100 + 2 * k, t_s, north_deg, 11.0, north_mps, 0.0);
-            text += &line(101 + 2 * k, t_s, 55.0, west_deg, west_mps, 270.0);
+            text += &line(211_000_100 + 2 * k, t_s, north_deg, 11.0, north_mps, 0.0);
+            text += &line(211_000_101 + 2 * k, t_s, 55.0, west_deg, west_mps, 270.0);
         }
     }
     text
@@ -43,11 +45,20 @@ fn danish() -> String {
     });
     let head = "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,SOG,COG,\
                 Heading\n";
-    format!("{head}{rows}01/05/2023 00:00:00,Base Station,1,55.0,11.0,,,,,\n")
+    format!("{head}{rows}01/05/2023 00:00:00,Base Station,2190045,55.0,11.0,,,,,\n")
 }
 
-const TEMPLATE: &str = "[model.own]\nspeed_mps = 1\n[model.target]\nlength_m = 2\nspeed_mps = 3\n\
-                        [model.geometry]\nrelative_course_deg = 4\nmiss_m = 5\n";
+const TEMPLATE: &str = include_str!("../../../campaigns/open-sea.toml");
+
+fn source(name: &str) -> Source {
+    Source {
+        name: name.to_owned(),
+        blake3: "00".to_owned(),
+        tool: "seatrial test".to_owned(),
+        seed: 1,
+        template: "open-sea".to_owned(),
+    }
+}
 
 #[test]
 fn a_file_becomes_a_model() {
@@ -66,14 +77,14 @@ fn a_file_becomes_a_model() {
     }
     let written = report("own.csv", &rows, &tracks, &found, &model);
     assert!(written.contains(TOO_FEW), "{written}");
-    let campaign = campaign(TEMPLATE, "own.csv", &model).unwrap();
-    for key in ["length_m", "speed_mps", "relative_course_deg", "miss_m"] {
-        let laws = campaign.lines().filter(|line| line.starts_with(key));
-        assert!(laws.clone().count() > 0 && laws.clone().all(|l| l.contains('{')), "{campaign}");
+    let campaign = campaign(TEMPLATE, &source("own.csv"), &model).unwrap();
+    for key in ["speed_mps = {", "relative_course_deg = { empirical", "miss_m = {", "tcpa_s = ["] {
+        assert!(campaign.lines().any(|line| line.starts_with(key)), "{key}: {campaign}");
     }
+    assert_eq!(campaign.matches("[[model.stratum]]").count(), 1);
     assert!(campaign.contains(TOO_FEW));
-    let wrong = ais::document::campaign("[model.own]\n", "x", &model).unwrap_err();
-    assert_eq!(wrong, "`model.own.speed_mps` is not in it");
+    let wrong = ais::model_file::campaign("name = 1\n", &source("x"), &model).unwrap_err();
+    assert_eq!(wrong, "`.title` is not in it");
 }
 
 #[test]
@@ -93,8 +104,9 @@ fn the_danish_form_gives_the_same_encounters_and_says_what_it_lacks() {
     assert!(model.length.fitted.is_none());
     let written = report("danish.csv", &b.0, &b.1, &b.2, &model);
     assert!(written.contains(&format!("| length, m | 0 | {ABSENT}")), "{written}");
-    let campaign = campaign(TEMPLATE, "danish.csv", &model).unwrap();
-    assert!(campaign.contains("length_m = 2\n"), "{campaign}");
+    let campaign = campaign(TEMPLATE, &source("danish.csv"), &model).unwrap();
+    assert!(campaign.contains("length_m = { uniform = [8.0, 120.0] }\n"), "{campaign}");
+    assert!(campaign.contains(&format!("# length, m: {ABSENT}")), "{campaign}");
 }
 
 /// Each encounter twice, once in each role, from the origin.
@@ -103,7 +115,8 @@ fn every_encounter_can_be_replayed_in_both_roles() {
     let rows = ais::read(&american()).unwrap();
     let tracks = ais::tracks(&rows.reports, &mut rows.rejected.clone());
     let found = ais::meetings(&tracks);
-    let text = situations(&tracks, &found.meetings[..1]);
+    let text = replay(TEMPLATE, &source("own.csv"), &tracks, &found.meetings[..1]);
+    let text = text.unwrap().unwrap();
     assert_eq!(text.matches("[[situation]]").count(), 2);
     let mut names = String::new();
     for role in 0..2 {

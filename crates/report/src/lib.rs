@@ -31,6 +31,7 @@ mod plan_view;
 mod player;
 mod simplify;
 mod time_charts;
+mod traffic;
 mod wording;
 mod write;
 
@@ -39,4 +40,5 @@ pub use figure::{DataTable, Figure};
 pub use input::{Card, Case, Compared, Cost, Extra, Found, ReportInput};
 pub use manoeuvres::{Trials, manoeuvres_picture};
 pub use page::{css, not_claimed, verdict_sentences};
+pub use traffic::{Sample, Traffic, traffic_picture};
 pub use write::{Rendered, case_picture, draw_case, render, write, write_comparison};

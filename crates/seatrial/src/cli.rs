@@ -68,11 +68,12 @@ pub(crate) enum Command {
     FitAis {
         /// A CSV file; columns are found by name
         file: PathBuf,
-        /// Folder for the report, the model and the situations
+        /// Folder for the report, the picture, the model and the situations; absent:
+        /// reports/ais-NAME
         #[arg(long, value_name = "DIR")]
-        out: PathBuf,
-        /// Seed of the bootstrap
-        #[arg(long, value_name = "N")]
+        out: Option<PathBuf>,
+        /// Seed of the bootstraps of intervals and p-values
+        #[arg(long, value_name = "N", default_value_t = 1)]
         seed: u64,
     },
     /// Check a file of planner vectors, and print the largest error of each column

@@ -2,37 +2,113 @@
 
 use crate::embedded;
 use crate::exit::Ended;
-use crate::say::say_text;
+use crate::say::{say, say_text};
 use ::campaign::Error;
-use ais::document;
+use ais::document::{self, ABSENT, Law, Model};
+use ais::meetings::Found;
+use ais::model_file::{self, Source};
+use ais::replay;
+use ais::tracks::{GAP_S_MAX, Track};
 use record::Seed;
+use report::{Sample, Traffic};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The campaign whose laws are replaced.
 const TEMPLATE: &str = "open-sea";
 
-pub(super) fn run(file: &Path, out: &Path, seed: u64) -> Result<Ended, Error> {
+pub(super) fn run(file: &Path, out: Option<&Path>, seed: u64) -> Result<Ended, Error> {
     let cannot = |what: &str, path: &Path, e: &dyn std::fmt::Display| {
         Error::input(format!("cannot {what} {}: {e}", path.display()))
     };
-    let text = fs::read_to_string(file).map_err(|e| cannot("read", file, &e))?;
+    let bytes = fs::read(file).map_err(|e| cannot("read", file, &e))?;
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let out = out.map_or_else(|| PathBuf::from(format!("reports/ais-{stem}")), Path::to_owned);
+    let source = Source {
+        name: file.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        blake3: blake3::hash(&bytes).to_hex().to_string(),
+        tool: format!("seatrial {}", env!("CARGO_PKG_VERSION")),
+        seed,
+        template: TEMPLATE.to_owned(),
+    };
+    // names of ships are in any encoding, and none of them is used
+    let text = String::from_utf8_lossy(&bytes);
     let mut rows = ais::read(&text).map_err(|e| cannot("use", file, &e))?;
     let tracks = ais::tracks(&rows.reports, &mut rows.rejected);
     let found = ais::meetings(&tracks);
     let model = document::model(&tracks, &found, Seed(seed));
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    let report = document::report(&name, &rows, &tracks, &found, &model);
+    let report = document::report(&source.name, &rows, &tracks, &found, &model);
     say_text!("{report}");
     let template = embedded::campaign_text(TEMPLATE)?;
-    let campaign = document::campaign(&template, &name, &model)
-        .map_err(|e| Error::Fault(format!("the template {TEMPLATE}: {e}")))?;
-    let replay = document::situations(&tracks, &found.meetings);
-    fs::create_dir_all(out).map_err(|e| cannot("make", out, &e))?;
-    for (name, text) in [("fit.md", report), ("model.toml", campaign), ("situations.toml", replay)]
-    {
+    let wrong = |e: String| Error::Fault(format!("the template {TEMPLATE}: {e}"));
+    let campaign = model_file::campaign(&template, &source, &model).map_err(wrong)?;
+    let replay = replay::replay(&template, &source, &tracks, &found.meetings).map_err(wrong)?;
+    let picture = report::traffic_picture(&picture(&source.name, &tracks, &found, &model));
+    fs::create_dir_all(&out).map_err(|e| cannot("make", &out, &e))?;
+    let files = [
+        ("fit.md", Some(report)),
+        ("model.toml", (!found.meetings.is_empty()).then_some(campaign)),
+        ("situations.toml", replay),
+        ("traffic.svg", Some(picture)),
+    ];
+    for (name, text) in files {
         let path = out.join(name);
-        fs::write(&path, text).map_err(|e| cannot("write", &path, &e))?;
+        match text {
+            Some(text) => {
+                fs::write(&path, text).map_err(|e| cannot("write", &path, &e))?;
+                say!("{}", path.display());
+            }
+            None => say!("{}: not written, there is no encounter", path.display()),
+        }
     }
     Ok(Ended::Done)
+}
+
+fn picture(name: &str, tracks: &[Track], found: &Found, model: &Model) -> Traffic {
+    let pieces = tracks.iter().flat_map(|track| {
+        track
+            .points
+            .chunk_by(|a, b| b.t_s - a.t_s <= GAP_S_MAX)
+            .map(|piece| piece.iter().map(|point| point.position_m).collect())
+    });
+    let closest = found
+        .meetings
+        .iter()
+        .filter_map(|meeting| tracks[meeting.ships[0]].at(meeting.cpa_s).map(|at| at.position_m));
+    let course = Sample {
+        name: "relative course, degrees".to_owned(),
+        values: model.relative_course_deg.clone(),
+        law: Vec::new(),
+        note: "as it was, in both roles".to_owned(),
+    };
+    let mut samples: Vec<Sample> =
+        [&model.speed, &model.miss, &model.time, &model.length].map(sample).into();
+    samples.insert(2, course);
+    Traffic {
+        name: name.to_owned(),
+        tracks: pieces.collect(),
+        closest_m: closest.collect(),
+        samples,
+    }
+}
+
+/// A sample with the density of its law.
+fn sample(law: &Law) -> Sample {
+    const POINTS: usize = 120;
+    let note = match &law.fitted {
+        None if law.sample.is_empty() => ABSENT.to_owned(),
+        None => "too few values".to_owned(),
+        Some(fitted) => {
+            let refuted = if law.is_refuted() { ": refuted, the sample is used" } else { "" };
+            format!("{:?}, p = {:.3}{refuted}", fitted.form, fitted.p_value)
+        }
+    };
+    let density = law.fitted.iter().flat_map(|fitted| {
+        let [low, high] = fitted.range;
+        (0..=POINTS).map(move |k| {
+            let x = low + (high - low) * k as f64 / POINTS as f64;
+            (x, fitted.density(x))
+        })
+    });
+    Sample { name: law.name.to_owned(), values: law.sample.clone(), law: density.collect(), note }
 }

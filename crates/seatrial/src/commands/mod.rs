@@ -46,7 +46,7 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         Command::Conformance { planner } => conformance::run(&planner, registry),
         Command::Speed { encounters } => speed::run(encounters, &registry),
         Command::Manoeuvres { out } => manoeuvres::run(out.as_deref()),
-        Command::FitAis { file, out, seed } => fit_ais::run(&file, &out, seed),
+        Command::FitAis { file, out, seed } => fit_ais::run(&file, out.as_deref(), seed),
         Command::Vectors { file } => vectors::run(&file),
         Command::Intervals { file } => intervals::run(&file),
         Command::Compare { planners, common } => compare::run(planners, common, registry),
