@@ -22,6 +22,11 @@ fn place_m(pair: u64, ship: u64, t_s: f64) -> [f64; 2] {
     }
 }
 
+fn apart_m(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let [north_m, east_m] = [a[0] - b[0], a[1] - b[1]];
+    (north_m * north_m + east_m * east_m).sqrt()
+}
+
 /// The traffic in the form of the United States since 2024, with what has to be cleaned.
 fn reports() -> String {
     let mut text =
@@ -31,8 +36,8 @@ fn reports() -> String {
             for ship in 0..2 {
                 let t_s = 10.0 * step as f64;
                 let [north_m, east_m] = place_m(pair, ship, t_s);
-                let [later_m, _] = [place_m(pair, ship, t_s + 1.0), [0.0; 2]];
-                let mps = ((later_m[0] - north_m).powi(2) + (later_m[1] - east_m).powi(2)).sqrt();
+                let later_m = place_m(pair, ship, t_s + 1.0);
+                let mps = apart_m(later_m, [north_m, east_m]);
                 let clock = 3600 * pair + 10 * step;
                 text += &format!(
                     "{},2024-05-01 {:02}:{:02}:{:02},{:.7},{:.7},{:.3},360,511,\"A, B\",{}\n",
@@ -70,7 +75,7 @@ fn closest_m(pair: u64, own: u64, start_s: f64) -> f64 {
         let ahead_s = f64::from(k);
         let other = place_m(pair, 1 - own, start_s + ahead_s);
         let mine = [start[0] + velocity[0] * ahead_s, start[1] + velocity[1] * ahead_s];
-        ((mine[0] - other[0]).powi(2) + (mine[1] - other[1]).powi(2)).sqrt()
+        apart_m(mine, other)
     };
     (0..600).map(apart).fold(f64::INFINITY, f64::min)
 }
@@ -91,7 +96,7 @@ fn a_file_of_reports_becomes_two_campaigns_that_run() {
         assert!(said.contains(line), "{line}: {said}");
     }
     let picture = fs::read_to_string(path.join("fit/traffic.svg")).unwrap();
-    assert!(picture.contains("traffic.csv: 24 tracks, 12 encounters"));
+    assert!(picture.contains("traffic.csv: 24 ships, 12 encounters"));
 
     run_ok(
         path,
@@ -118,7 +123,7 @@ fn a_file_of_reports_becomes_two_campaigns_that_run() {
         // an encounter begins five minutes before its recorded closest point
         let recorded = (0..1200).map(|t_s| {
             let (a, b) = (place_m(pair, 0, f64::from(t_s)), place_m(pair, 1, f64::from(t_s)));
-            ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2), t_s)
+            (apart_m(a, b), t_s)
         });
         let cpa_s = recorded.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap().1;
         let expected_m = closest_m(pair, own, f64::from(cpa_s) - 300.0);

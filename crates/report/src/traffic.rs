@@ -10,6 +10,8 @@ use geom::Vec2;
 pub struct Traffic {
     /// Name of the file.
     pub name: String,
+    /// How many ships there are.
+    pub ships: usize,
     /// Tracks, metres north and east; a gap starts a new piece.
     pub tracks: Vec<Vec<Vec2>>,
     /// Where ships were closest.
@@ -40,9 +42,9 @@ const CHART: (f64, f64) = (225.0, 118.0);
 pub fn traffic_picture(traffic: &Traffic) -> String {
     sheet(WIDTH, HEIGHT, "a measured traffic", |sheet| {
         let title = format!(
-            "{}: {} tracks, {} encounters",
+            "{}: {} ships, {} encounters",
             traffic.name,
-            traffic.tracks.len(),
+            traffic.ships,
             traffic.closest_m.len()
         );
         sheet.text(&title, 12.0, 20.0, Type::new(14.0, Ink::Text, At::Left).bold());
@@ -168,12 +170,13 @@ mod tests {
         };
         let traffic = Traffic {
             name: "a.csv".to_owned(),
+            ships: 0,
             tracks: Vec::new(),
             closest_m: Vec::new(),
             samples: vec![sample],
         };
         let picture = traffic_picture(&traffic);
-        for words in ["a.csv: 0 tracks", "no tracks", "not in this file", "nothing to draw"] {
+        for words in ["a.csv: 0 ships", "no tracks", "not in this file", "nothing to draw"] {
             assert!(picture.contains(words), "{words}");
         }
     }

@@ -86,6 +86,7 @@ fn picture(name: &str, tracks: &[Track], found: &Found, model: &Model) -> Traffi
     samples.insert(2, course);
     Traffic {
         name: name.to_owned(),
+        ships: tracks.len(),
         tracks: pieces.collect(),
         closest_m: closest.collect(),
         samples,
