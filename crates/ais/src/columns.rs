@@ -120,8 +120,8 @@ mod tests {
         let columns = Columns::of(solent).unwrap();
         assert_eq!((columns.latitude, columns.cog, columns.sog), (2, 4, 5));
         assert_eq!((columns.length, columns.order), (None, Order::YearFirst));
-        let short = "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,SOG,\
-                     COG,Heading,IMO,Callsign,Name,Ship type,Cargo type,Width,Length,Type of \
+        let short = "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,\
+                     SOG,COG,Heading,IMO,Callsign,Name,Ship type,Cargo type,Width,Length,Type of \
                      position fixing device,Draught,Destination,ETA,Data source type";
         for (danish, count) in [(short.to_owned(), 22), (format!("{short},A,B,C,D"), 26)] {
             let columns = Columns::of(&danish).unwrap();

@@ -3,8 +3,8 @@
 //! It is a template with its laws replaced, so that it says everything a campaign must; what is not
 //! in the file stays as the template has it and is marked. Its one stratum is the traffic: what the
 //! laws give, with no class asked for, so that a rate over it is one over the encounters of the
-//! file. Encounters that were met are as frequent as they are, closing speeds included; they need no
-//! weight for that.
+//! file. Encounters that were met are as frequent as they are, closing speeds included; they need
+//! no weight for that.
 
 use crate::document::{ABSENT, Law, Model, PAIRS_MIN, TOO_FEW, thinned};
 use crate::meetings::BEFORE_S;

@@ -1,7 +1,7 @@
 //! A campaign that sails the encounters of a file again, with own ship in the place of one vessel.
 //!
-//! Each encounter stands in it twice, once for each ship that own ship replaces. The other sails the
-//! track that was recorded, with its speeds, whatever own ship does. Own ship begins where the
+//! Each encounter stands in it twice, once for each ship that own ship replaces. The other sails
+//! the track that was recorded, with its speeds, whatever own ship does. Own ship begins where the
 //! vessel was, on her course and at her speed, and goes straight on: what the vessel did later may
 //! have been avoidance, and that is own ship's to do.
 
@@ -41,8 +41,8 @@ pub fn replay(
     let Source { name, blake3, tool, .. } = source;
     Ok(Some(format!(
         "# Encounters of {name} (BLAKE3 {blake3}), made by {tool}.\n\
-         # Each stands here twice, with own ship in the place of either vessel; the other sails the\n\
-         # track that was recorded. Vessels whose reports give no length have \
+         # Each stands here twice, with own ship in the place of either vessel; the other sails\n\
+         # the track that was recorded. Vessels whose reports give no length have \
          {LENGTH_M_IF_UNKNOWN} m.\n\n{text}\n{}",
         situations(tracks, meetings)
     )))
