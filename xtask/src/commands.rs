@@ -16,7 +16,7 @@ const PRODUCT: &[(&str, &str)] = &[
     ("speed", "measure encounters per second and where the time goes"),
     ("vectors", "check the seed planner against a file of known answers"),
     ("compare", "several planners on the same encounters, side by side"),
-    ("judge", "another rule set over a finished campaign, without simulating again"),
+    ("judge", "another rule set over a finished campaign, every encounter run again from its seed"),
     ("manoeuvres", "turning circle, zigzag and crash stop of every vessel"),
     ("fit-ais", "fit an encounter model to AIS reports"),
     ("gate", "candidate against baseline: pass, fail or inconclusive"),

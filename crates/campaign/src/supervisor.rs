@@ -7,7 +7,7 @@
 
 use crate::engine::{EXIT_HUNG, FAREWELL};
 use crate::inflight::{InFlight, Suspect};
-use crate::part::{PART_ENCOUNTERS, PartKey};
+use crate::part::PartKey;
 use crate::{Error, Folder, Plan};
 use planner_host::tail::Tail;
 use record::Outcome;
@@ -16,13 +16,16 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::process::ExitStatusExt as _;
 use std::path::PathBuf;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 use std::time::Duration;
 
 /// Engines that die without anybody being guilty, before the harness itself is suspected.
 const UNEXPLAINED_DEATHS_MAX: u32 = 3;
+
+/// How often a running process is looked at.
+const LOOK_EVERY: Duration = Duration::from_millis(10);
 
 /// An encounter that takes its process with it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,8 +48,8 @@ pub struct Supervisor<'a> {
     pub threads: usize,
     /// Set when the user wants to stop.
     pub interrupted: &'a AtomicBool,
-    /// Told of encounters done, those of earlier parts first.
-    pub progress: &'a dyn Fn(u64),
+    /// Told of encounters as they are done.
+    pub progress: &'a (dyn Fn(u64) + Sync),
 }
 
 impl std::fmt::Debug for Supervisor<'_> {
@@ -62,9 +65,6 @@ impl Supervisor<'_> {
     /// `Incomplete` when the user stopped it; the parts so far stay.
     pub fn run(&self, plan: &Plan, folder: &Folder, keys: &[PartKey]) -> Result<(), Error> {
         let mut unexplained = 0;
-        let done: u64 =
-            keys.iter().filter(|&&key| is_there(folder, key)).map(|&key| rows_of(plan, key)).sum();
-        (self.progress)(done);
         while keys.iter().any(|&key| !is_there(folder, key)) {
             self.stop_if_interrupted(folder)?;
             let (ended, of_its_own) = self.run_engine(folder, keys)?;
@@ -111,26 +111,40 @@ impl Supervisor<'_> {
             .arg(self.threads.to_string())
             .spawn()
             .map_err(Error::io("start", &self.program))?;
-        let of_its_own = self.listen(&mut child);
-        let ended = child.wait().map_err(Error::io("wait for", &self.program))?;
-        Ok((ended, of_its_own))
+        let lines = child.stdout.take();
+        std::thread::scope(|scope| {
+            let listener = scope.spawn(|| self.listen(lines));
+            let ended = self.wait(&mut child)?;
+            Ok((ended, listener.join().unwrap_or(false)))
+        })
     }
 
     /// Reads the engine's lines until it closes them; whether it said that it ends. Libraries may
     /// write lines of their own between them.
-    fn listen(&self, child: &mut Child) -> bool {
-        let Some(stdout) = child.stdout.take() else { return false };
+    fn listen(&self, lines: Option<ChildStdout>) -> bool {
         let mut of_its_own = false;
-        for line in BufReader::new(stdout).lines().map_while(Result::ok) {
+        for line in lines.into_iter().flat_map(|l| BufReader::new(l).lines()).map_while(Result::ok)
+        {
             of_its_own |= line == FAREWELL;
             let part = line.strip_prefix("part ").and_then(|part| part.rsplit(' ').next());
             (self.progress)(part.and_then(|rows| rows.parse().ok()).unwrap_or(0));
-            if self.interrupted.load(Ordering::Relaxed) {
-                // its parts are whole files: nothing is lost but what was in flight
-                drop(child.kill());
-            }
         }
         of_its_own
+    }
+
+    /// Waits for a process, or ends it when the user wants to stop. Its parts are whole files, so
+    /// nothing is lost but what was in flight; and it may be in the middle of a call that takes
+    /// its time, or does not return.
+    fn wait(&self, child: &mut Child) -> Result<ExitStatus, Error> {
+        loop {
+            if let Some(ended) = child.try_wait().map_err(Error::io("wait for", &self.program))? {
+                return Ok(ended);
+            }
+            if self.interrupted.load(Ordering::Relaxed) {
+                drop(child.kill());
+            }
+            std::thread::sleep(LOOK_EVERY);
+        }
     }
 
     /// Runs each suspect alone.
@@ -164,10 +178,9 @@ impl Supervisor<'_> {
             .map_err(Error::io("start", &self.program))?;
         let farewell = child.stdout.take().map(last_words);
         let said = child.stderr.take().map(last_words);
-        // `wait` closes the child's standard input, which tells it that we are gone
-        let open = child.stdin.take();
-        let ended = child.wait().map_err(Error::io("wait for", &self.program))?;
-        drop(open);
+        let ended = self.wait(&mut child)?;
+        // killed because the user wants to stop, it is no proof against the planner
+        self.stop_if_interrupted(folder)?;
         let hear = |words: Option<mpsc::Receiver<String>>| {
             words.and_then(|words| words.recv_timeout(LAST_WORDS).ok()).unwrap_or_default()
         };
@@ -257,10 +270,14 @@ pub fn is_there(folder: &Folder, key: PartKey) -> bool {
     folder.parts().join(key.file_name()).exists()
 }
 
-fn rows_of(plan: &Plan, key: PartKey) -> u64 {
-    let range = key.range(plan.encounters_per_stratum);
-    debug_assert!(range.end - range.start <= PART_ENCOUNTERS);
-    range.end - range.start
+/// Encounters of these parts, and how many of them are there already.
+pub fn encounters(plan: &Plan, folder: &Folder, keys: &[PartKey]) -> (u64, u64) {
+    let rows = |key: &PartKey| {
+        let range = key.range(plan.encounters_per_stratum);
+        range.end - range.start
+    };
+    let done = keys.iter().filter(|&&key| is_there(folder, key)).map(rows).sum();
+    (keys.iter().map(rows).sum(), done)
 }
 
 /// The encounters known to take their process with them.

@@ -8,6 +8,7 @@
 mod columns;
 mod csv;
 mod error;
+mod gather;
 mod read;
 mod write;
 

@@ -1,13 +1,10 @@
 //! Writing: row groups in the order given, a temporary name until the file is whole.
 
 use crate::TableError;
-use crate::columns::{COLUMNS, Cells, ID, margin_name, status_name};
-use polars::frame::DataFrame;
+use crate::gather::Gathered;
 use polars::io::parquet::write::BatchedWriter;
-use polars::prelude::{
-    Column as Series, ParquetCompression, ParquetWriter, PolarsError, StatisticsOptions,
-};
-use record::{Check, RunRow};
+use polars::prelude::{ParquetCompression, ParquetWriter, PolarsError, StatisticsOptions};
+use record::RunRow;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::BufWriter;
@@ -21,7 +18,7 @@ pub const ROW_GROUP_ROWS: usize = 16_384;
 pub struct ParquetSink {
     path: PathBuf,
     temporary: PathBuf,
-    rows: Vec<RunRow>,
+    gathered: Gathered,
     writer: Option<BatchedWriter<BufWriter<File>>>,
     written: u64,
 }
@@ -38,7 +35,9 @@ impl ParquetSink {
         let temporary = path.with_file_name(name);
         let file =
             File::create(&temporary).map_err(|source| io_error("create", &temporary, source))?;
-        let schema = frame(&[]).map_err(|source| write_error(&path, source))?.schema().clone();
+        let gathered = Gathered::new();
+        let schema =
+            gathered.frame().map_err(|source| write_error(&path, source))?.schema().clone();
         let writer = ParquetWriter::new(BufWriter::with_capacity(1 << 20, file))
             .with_compression(ParquetCompression::Zstd(None))
             .with_statistics(StatisticsOptions::empty())
@@ -46,22 +45,21 @@ impl ParquetSink {
             .set_parallel(false)
             .batched(&schema)
             .map_err(|source| write_error(&path, source))?;
-        let rows = Vec::with_capacity(ROW_GROUP_ROWS);
-        Ok(Self { path, temporary, rows, writer: Some(writer), written: 0 })
+        Ok(Self { path, temporary, gathered, writer: Some(writer), written: 0 })
     }
 
     /// Adds a row; a full row group is written at once.
     ///
     /// # Errors
     /// The disk is full, or gone.
-    pub fn push(&mut self, row: RunRow) -> Result<(), TableError> {
-        self.rows.push(row);
-        if self.rows.len() == ROW_GROUP_ROWS { self.write_group() } else { Ok(()) }
+    pub fn push(&mut self, row: &RunRow) -> Result<(), TableError> {
+        self.gathered.push(row);
+        if self.gathered.rows() == ROW_GROUP_ROWS { self.write_group() } else { Ok(()) }
     }
 
     /// Rows so far.
     pub fn len(&self) -> u64 {
-        self.written + self.rows.len() as u64
+        self.written + self.gathered.rows() as u64
     }
 
     /// Whether there are none yet.
@@ -86,15 +84,16 @@ impl ParquetSink {
     }
 
     fn write_group(&mut self) -> Result<(), TableError> {
-        if self.rows.is_empty() {
+        if self.gathered.rows() == 0 {
             return Ok(());
         }
         let writer = self.writer.as_mut().expect("a sink has its writer until it is finished");
-        frame(&self.rows)
+        self.gathered
+            .frame()
             .and_then(|group| writer.write_batch(&group))
             .map_err(|source| write_error(&self.path, source))?;
-        self.written += self.rows.len() as u64;
-        self.rows.clear();
+        self.written += self.gathered.rows() as u64;
+        self.gathered.clear();
         Ok(())
     }
 }
@@ -114,34 +113,6 @@ impl fmt::Debug for ParquetSink {
             .field("rows", &self.len())
             .finish_non_exhaustive()
     }
-}
-
-/// The rows as columns.
-fn frame(rows: &[RunRow]) -> Result<DataFrame, PolarsError> {
-    let ids: Vec<String> = rows.iter().map(|row| row.id.to_string()).collect();
-    let mut series = vec![Series::new(ID.into(), ids)];
-    for column in COLUMNS {
-        let name = column.name.into();
-        series.push(match column.cells {
-            Cells::Number(get, _) => Series::new(name, cells(rows, get)),
-            Cells::Count(get, _) => Series::new(name, cells(rows, get)),
-            Cells::Flag(get, _) => Series::new(name, cells(rows, get)),
-            Cells::Word(get, _) => {
-                Series::new(name, rows.iter().map(get).collect::<Vec<Option<&str>>>())
-            }
-        });
-    }
-    for check in Check::ALL {
-        let statuses: Vec<&str> = rows.iter().map(|row| row.check(check).status.name()).collect();
-        series.push(Series::new(status_name(check).into(), statuses));
-        let margins: Vec<Option<f64>> = rows.iter().map(|row| row.check(check).margin).collect();
-        series.push(Series::new(margin_name(check).into(), margins));
-    }
-    DataFrame::new(rows.len(), series)
-}
-
-fn cells<T>(rows: &[RunRow], get: fn(&RunRow) -> Option<T>) -> Vec<Option<T>> {
-    rows.iter().map(get).collect()
 }
 
 fn io_error(action: &'static str, path: &Path, source: std::io::Error) -> TableError {

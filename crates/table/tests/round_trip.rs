@@ -78,7 +78,7 @@ fn row(stratum: &str, j: u64) -> RunRow {
 
 fn write(path: &std::path::Path, rows: impl IntoIterator<Item = RunRow>) -> u64 {
     let mut sink = ParquetSink::create(path).expect("the folder is there");
-    rows.into_iter().for_each(|row| sink.push(row).expect("there is room"));
+    rows.into_iter().for_each(|row| sink.push(&row).expect("there is room"));
     sink.finish().expect("there is room")
 }
 
@@ -118,7 +118,7 @@ fn file_appears_whole_or_not_at_all() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("runs.parquet");
     let mut sink = ParquetSink::create(&path).unwrap();
-    (0..3).for_each(|j| sink.push(row("head_on", j)).unwrap());
+    (0..3).for_each(|j| sink.push(&row("head_on", j)).unwrap());
     assert_eq!(sink.len(), 3);
     assert!(!path.exists());
     drop(sink);

@@ -8,7 +8,7 @@ use crate::say::say;
 use crate::timing::Stopwatch;
 use crate::{build, embedded};
 use campaign::folder::Opened;
-use campaign::supervisor::Supervisor;
+use campaign::supervisor::{self, Supervisor};
 use campaign::{CampaignFile, Error, Folder, Overrides, Plan, run_parts};
 use planner_api::Registry;
 use std::path::{Path, PathBuf};
@@ -144,14 +144,10 @@ impl Job<'_> {
     }
 
     fn run_parts(&self, folder: &Folder, shard: (u64, u64)) -> Result<(), Error> {
-        let total: u64 = campaign::pipeline::shard_keys(self.plan, shard)
-            .iter()
-            .map(|key| {
-                let range = key.range(self.plan.encounters_per_stratum);
-                range.end - range.start
-            })
-            .sum();
+        let keys = campaign::pipeline::shard_keys(self.plan, shard);
+        let (total, done) = supervisor::encounters(self.plan, folder, &keys);
         let progress = Progress::new(&self.plan.planner.name, total, self.args.quiet);
+        progress.begin_with(done);
         let supervisor = Supervisor {
             program: std::env::current_exe().map_err(Error::io("find", Path::new("seatrial")))?,
             threads: self.threads,

@@ -37,7 +37,7 @@ struct TableSink(table::ParquetSink);
 
 impl RowSink for TableSink {
     fn push(&mut self, rows: Vec<RunRow>) -> Result<(), Error> {
-        rows.into_iter()
+        rows.iter()
             .try_for_each(|row| self.0.push(row))
             .map_err(|e| Error::Fault(format!("failed to {e}")))
     }

@@ -60,8 +60,8 @@ impl Job<'_> {
         let out = self.out(&rules.rule_set()?)?;
         let failed = |e: table::TableError| Error::Fault(format!("failed to {e}"));
         let mut table = table::ParquetSink::create(out.join("runs.parquet")).map_err(failed)?;
-        let summary = self.run(rules, vec![rules.rule_set()?], &mut |mut rows| {
-            rows.drain(..).try_for_each(|row| table.push(row)).map_err(failed)
+        let summary = self.run(rules, vec![rules.rule_set()?], &mut |rows| {
+            rows.iter().try_for_each(|row| table.push(row)).map_err(failed)
         })?;
         let summary = &summary[0].summary;
         table.finish().map_err(failed)?;
