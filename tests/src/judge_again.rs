@@ -51,7 +51,7 @@ fn a_run_that_does_not_give_its_stored_digest_is_a_harness_fault() {
     stored[3].digest = stored[4].digest;
     let id = stored[3].id.to_string();
     let mut table = table::ParquetSink::create(result.join("runs.parquet")).unwrap();
-    stored.iter().for_each(|row| table.push(&row).unwrap());
+    stored.iter().for_each(|row| table.push(row).unwrap());
     table.finish().unwrap();
     let said = run_err(folder.path(), "judge first --rules usv-ccta2023-v1 --quiet", 4);
     assert!(said.contains(&id) && said.contains("stored"), "{said}");
