@@ -11,6 +11,7 @@ mod judge_again;
 mod killed;
 mod lost_runs;
 mod negative_controls;
+mod newcomers_walk;
 mod refusals;
 mod same_bits;
 mod shards;
