@@ -1,6 +1,6 @@
-//! The walk of `docs/your-planner.md`, with its own words: the planner that it spells out runs in an
-//! empty folder under the command that it gives, and conforms. Installing the package is left out,
-//! because that asks the network for a build tool; the package's one file is on Python's path.
+//! The walk of `docs/your-planner.md`, with its own words: the planner that it spells out runs in
+//! an empty folder under the command that it gives, and conforms. Installing the package is left
+//! out, because that asks the network for a build tool; its one file is on Python's path.
 
 use crate::support::{rows, seatrial};
 use std::fs;
