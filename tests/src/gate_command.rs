@@ -79,6 +79,7 @@ fn what_a_gate_cannot_do_is_refused_before_anything_runs() {
         ("gate --baseline zhuang --candidate results", "is a folder"),
         ("gate --baseline zhuang --candidate zhuangg", "zhuangg"),
         ("gate --baseline git:main --candidate zhuang", "git"),
+        ("gate --baseline git:main:exec:./x --candidate zhuang", "is not built from this"),
         ("gate --baseline zhuang --candidate git:main", "--baseline git:REV"),
         ("gate --baseline zhuang --candidate zhuang --cap 20000", "needs a cap of"),
         ("gate --baseline zhuang --candidate zhuang --campaign quick", "no table [gate]"),

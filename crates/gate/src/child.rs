@@ -6,7 +6,7 @@
 use crate::Event;
 use crate::arm::{self, Arm, ArmRow};
 use crate::corpus::Question;
-use crate::serve::Identity;
+use crate::serve::{Hello, Identity};
 use campaign::{Error, Plan, engine};
 use record::Outcome;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,7 +30,7 @@ pub struct Launch {
 pub struct Child {
     launch: Launch,
     plan: Plan,
-    identity: Option<Identity>,
+    hello: Option<Hello>,
     process: Option<Process>,
 }
 
@@ -51,14 +51,23 @@ enum Ended {
 impl Child {
     /// Starts the process; it has said who it is when this returns.
     pub fn start(launch: Launch, plan: Plan) -> Result<Self, Error> {
-        let mut child = Self { launch, plan, identity: None, process: None };
+        let mut child = Self { launch, plan, hello: None, process: None };
         child.ensure()?;
         Ok(child)
     }
 
     /// Who the process said it is.
     pub fn identity(&self) -> &Identity {
-        self.identity.as_ref().expect("a started child has said who it is")
+        &self.hello().identity
+    }
+
+    /// Every option of the planner that the process runs.
+    pub fn options(&self) -> &toml::Table {
+        &self.hello().options
+    }
+
+    fn hello(&self) -> &Hello {
+        self.hello.as_ref().expect("a started child has said who it is")
     }
 
     fn ensure(&mut self) -> Result<(), Error> {
@@ -88,7 +97,7 @@ impl Child {
             return Err(refusal(error));
         }
         let hello = said.strip_prefix("hello ").and_then(|json| serde_json::from_str(json).ok());
-        let Some(identity) = hello else {
+        let Some(hello) = hello else {
             drop(child.wait());
             return Err(Error::input(if read == 0 {
                 format!("{name} cannot serve as an arm of the gate (older than the gate?)")
@@ -96,10 +105,10 @@ impl Child {
                 format!("{name} is no arm of the gate: it said `{said}`")
             }));
         };
-        if self.identity.as_ref().is_some_and(|before| *before != identity) {
+        if self.hello.as_ref().is_some_and(|before| *before != hello) {
             return Err(Error::Fault(format!("{name} became another build while the gate ran")));
         }
-        self.identity = Some(identity);
+        self.hello = Some(hello);
         self.process = Some(Process { child, input: Some(input), output });
         Ok(())
     }

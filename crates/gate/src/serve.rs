@@ -5,14 +5,17 @@
 //! Standard input: one line with the plan as JSON, then a line for each request: places, or
 //! `case {question}` for a case of the corpus.
 //!
-//! Standard output, line by line: `hello {identity}`, `b PLACE` (begins), `r {row}` (ended),
+//! Options that the plan does not give are those of this build: the defaults of a planner are part
+//! of its sources, and a change of one is a change that the gate must see.
+//!
+//! Standard output, line by line: `hello {greeting}`, `b PLACE` (begins), `r {row}` (ended),
 //! `e` (request done), `c [events]` (answer to a case), `x KIND message` (an error: `input` or
 //! `fault`).
 
 use crate::arm::{self, InProcess, Step};
 use crate::corpus::{self, Question};
 use crate::fresh;
-use campaign::plan::Build;
+use campaign::plan::{Build, PlannerChoice};
 use campaign::worker::Shop;
 use campaign::{Error, Plan, engine};
 use planner_api::Registry;
@@ -37,6 +40,14 @@ pub struct Identity {
     pub planners: String,
     /// Commit of the sources.
     pub git_commit: String,
+}
+
+/// What a child says first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Hello {
+    pub(crate) identity: Identity,
+    /// Every option of the planner that it runs.
+    pub(crate) options: toml::Table,
 }
 
 impl Identity {
@@ -105,10 +116,13 @@ fn answer(
         .map_err(|e| Error::input(format!("this build cannot read the plan: {e}")))?;
     plan.build = build.clone();
     let registry = registry(&plan.planner.name)?;
+    plan.planner.options = whole_options(&plan.planner, &registry)?;
     let shop = Shop::new(&plan, &registry)?;
     let beats = arm::beats(threads);
     let mut arm = InProcess::new(&shop, &plan, &beats)?;
-    let hello = serde_json::to_string(&Identity::of(&plan, build)?);
+    let identity = Identity::of(&plan, build)?;
+    let hello = Hello { identity, options: plan.planner.options.clone() };
+    let hello = serde_json::to_string(&hello);
     say(&format!("hello {}", hello.map_err(|e| Error::Fault(e.to_string()))?));
     let limit_s = plan.run.planner_hang_limit_s;
     let stop = AtomicBool::new(false);
@@ -136,6 +150,13 @@ fn answer(
         stop.store(true, Ordering::Relaxed);
         ended
     })
+}
+
+/// The plan's options over the defaults of this build's planner.
+fn whole_options(planner: &PlannerChoice, registry: &Registry) -> Result<toml::Table, Error> {
+    let input = |e: &dyn std::fmt::Display| Error::input(e.to_string());
+    let entry = registry.get(&planner.name).map_err(|e| input(&e))?;
+    entry.resolve(&planner.options).map_err(|e| input(&e))
 }
 
 /// One case of the corpus, with a planner made anew.
@@ -186,6 +207,28 @@ fn watch(beats: &[AtomicU64], limit_s: f64, stop: &AtomicBool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A default that differs between two commits is what a gate between them must see.
+    #[test]
+    fn an_option_that_is_not_given_has_the_default_of_the_build_that_runs() {
+        let registry = planners::registry();
+        let entry = registry.get("zhuang").unwrap();
+        let (key, value) = entry.options.iter().next().unwrap();
+        let choice = |options: toml::Table| PlannerChoice {
+            name: "zhuang".into(),
+            options,
+            files_sha256: std::collections::BTreeMap::new(),
+        };
+        assert_eq!(whole_options(&choice(toml::Table::new()), &registry).unwrap(), entry.options);
+        let given = toml::Table::from_iter([(key.clone(), toml::Value::from("given"))]);
+        let whole = whole_options(&choice(given), &registry).unwrap();
+        assert_eq!(whole.len(), entry.options.len());
+        assert_eq!(whole[key].as_str(), Some("given"));
+        assert_ne!(whole[key], *value);
+        let unknown = toml::Table::from_iter([("no_such".to_owned(), toml::Value::from(1))]);
+        let refused = whole_options(&choice(unknown), &registry).unwrap_err().to_string();
+        assert!(refused.contains("no_such"), "{refused}");
+    }
 
     #[test]
     fn builds_that_differ_in_one_hash_are_refused_by_its_name_and_planners_may_differ() {

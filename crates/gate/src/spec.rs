@@ -117,6 +117,14 @@ impl GateSpec {
         Ok(())
     }
 
+    /// Options that are given for a planner, by the campaign file and then by `planner`; all others
+    /// are its defaults, which belong to a build.
+    pub fn changes(&self, planner: &PlannerSpec) -> toml::Table {
+        let mut options = self.file.planner.get(&planner.name).cloned().unwrap_or_default();
+        options.extend(planner.options.clone());
+        options
+    }
+
     /// The campaign resolved for one planner, with the seed of the fresh set.
     pub fn plan(
         &self,
@@ -127,8 +135,7 @@ impl GateSpec {
         build: &campaign::plan::Build,
     ) -> Result<Plan, Error> {
         let mut file = self.file.clone();
-        let options = file.planner.entry(planner.name.clone()).or_default();
-        options.extend(planner.options.clone());
+        file.planner.insert(planner.name.clone(), self.changes(planner));
         // an option table of a planner from outside that this gate does not run is no error
         file.planner.retain(|name, _| registry.get(name).is_ok() || *name == planner.name);
         let strata = file.model.as_ref().map_or(1, |model| model.stratum.len()).max(1) as u64;

@@ -73,6 +73,12 @@ pub fn case_line(case: &crate::corpus::Case) -> String {
     format!("{}: {} does {}", case.name, case.found.planner, does.join(", "))
 }
 
+/// The confidence of a sequence at the level of this attempt: attempt 2 has half of the first's.
+fn confidence(alpha: f64) -> String {
+    let percent = format!("{:.3}", 100.0 * (1.0 - alpha));
+    format!("{} %", percent.trim_end_matches('0').trim_end_matches('.'))
+}
+
 /// The verdict on one screen.
 pub fn terminal(report: &GateReport, folder: &str) -> String {
     let result = &report.result;
@@ -112,7 +118,13 @@ pub fn terminal(report: &GateReport, folder: &str) -> String {
     }
     line(format!(
         "  {:16} {:>7} {:>7} {:>7} {:>7}  {:25} {}",
-        "metric", "both", "breaks", "fixes", "unknown", "difference [95 % conf. seq.]", "verdict"
+        "metric",
+        "both",
+        "breaks",
+        "fixes",
+        "unknown",
+        format!("difference [{} conf. seq.]", confidence(result.alpha_pass)),
+        "verdict"
     ));
     for metric in &result.metrics {
         let Certain { both, breaks, fixes } = Certain::of(metric);
@@ -180,9 +192,11 @@ pub fn markdown(report: &GateReport, folder: &str) -> String {
     ] {
         put(format!("| {name} | {} |", layer_word(layer)));
     }
-    put("\n| metric | both | breaks | fixes | undetermined | difference (confidence sequence) | \
-         answer |\n|---|---|---|---|---|---|---|"
-        .to_owned());
+    put(format!(
+        "\n| metric | both | breaks | fixes | undetermined | difference ({} confidence sequence) | \
+         answer |\n|---|---|---|---|---|---|---|",
+        confidence(result.alpha_pass)
+    ));
     for metric in &result.metrics {
         let Certain { both, breaks, fixes } = Certain::of(metric);
         put(format!(
@@ -233,4 +247,16 @@ pub fn expectation(feasibility: &stats::Feasibility) -> String {
     }
     .expect("writing to a string");
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::confidence;
+
+    #[test]
+    fn the_confidence_is_that_of_the_attempt() {
+        assert_eq!(confidence(0.05), "95 %");
+        assert_eq!(confidence(0.025), "97.5 %");
+        assert_eq!(confidence(0.003_125), "99.688 %");
+    }
 }

@@ -9,6 +9,7 @@ use crate::say::{say, say_text};
 use crate::timing::Stopwatch;
 use campaign::{Error, Plan};
 use gate::memory::{Echo, Heard};
+use gate::spec::PlannerSpec;
 use gate::{Arm, ArmIdentity, Child, FreshKey, GateReport, GateSpec, Ledger, Paired, PairedRun};
 use gate::{Record, Role};
 use planner_api::Registry;
@@ -43,9 +44,16 @@ pub(super) fn run(args: &GateArgs, registry: Registry) -> Result<Ended, Error> {
     Job { args, spec, out }.run(registry)
 }
 
+/// Whether Ctrl-C was pressed.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Whether somebody wants it to end.
+pub(super) fn was_interrupted() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+}
+
 /// Set by the first Ctrl-C; the second one ends the process at once.
 pub(super) fn on_interrupt() -> Result<&'static AtomicBool, Error> {
-    static INTERRUPTED: AtomicBool = AtomicBool::new(false);
     ctrlc::set_handler(|| {
         if INTERRUPTED.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(crate::exit::INCOMPLETE));
@@ -65,6 +73,8 @@ struct Job<'a> {
 /// What was settled before anything runs.
 struct Declared {
     candidate: Plan,
+    /// Options that were given for the candidate.
+    changes: toml::Table,
     campaign_hash: String,
     key: FreshKey,
     series: String,
@@ -109,10 +119,12 @@ impl Job<'_> {
         let arms = arms.with(&names)?;
         let mut ledger = Ledger::open(&args.ledger.clone().unwrap_or_else(|| LEDGER.into()))?;
         let declared = self.declare(candidate, &arms, &ledger, &older)?;
+        // before anything is built: an interrupted build must put back what it replaced
+        let interrupted = on_interrupt()?;
         let baseline = match (&args.baseline, &current) {
             (Some(name), _) => {
                 let options = gate_arms::options(&args.baseline_options)?;
-                arms.side(name, options, &declared.candidate)?
+                arms.side(name, options, &declared.candidate, &declared.changes)?
             }
             (None, Some(record)) => arms.stored(record, &declared.candidate)?,
             (None, None) => return Err(self.nameless()),
@@ -122,7 +134,9 @@ impl Job<'_> {
             ratchets.push(arms.stored(record, &declared.candidate)?);
         }
         let mine = Side::of(candidate, declared.candidate.clone(), arms.mine.clone());
-        let interrupted = on_interrupt()?;
+        if interrupted.load(Ordering::Relaxed) {
+            return Err(Error::Incomplete("interrupted before the first pair".to_owned()));
+        }
         let mut started = start(baseline, mine, ratchets)?;
         let entry = self.entry(&declared, &started);
         ledger.append(entry.clone())?;
@@ -168,6 +182,9 @@ impl Job<'_> {
             )));
         }
         let options = gate_arms::options(&self.args.candidate_options)?;
+        let changes = self
+            .spec
+            .changes(&PlannerSpec { name: candidate.to_owned(), options: options.clone() });
         let draft = arms.plan(candidate, options, 0)?;
         let campaign_hash = gate::fresh::campaign_hash(&draft, &self.spec.table)?;
         let outside = gate_arms::outside_bytes(candidate)?;
@@ -192,7 +209,7 @@ impl Job<'_> {
         );
         say!("  {}", gate::text::expectation(&feasibility));
         let candidate = Plan { seed: record::Seed(key.seed()), ..draft };
-        Ok(Declared { candidate, campaign_hash, key, series, plan, feasibility })
+        Ok(Declared { candidate, changes, campaign_hash, key, series, plan, feasibility })
     }
 
     fn entry(&self, declared: &Declared, started: &Started) -> gate::ledger::Entry {

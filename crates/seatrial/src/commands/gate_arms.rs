@@ -2,11 +2,13 @@
 
 use crate::exit::Ended;
 use crate::{build, embedded};
+use campaign::plan::PlannerChoice;
 use campaign::{Error, Plan};
 use gate::child::Launch;
 use gate::spec::PlannerSpec;
 use gate::{ArmIdentity, Child, GateSpec, Record};
 use planner_api::Registry;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use toml::Table;
@@ -58,19 +60,35 @@ impl<'a> Arms<'a> {
     }
 
     /// A planner of this build, or one of another commit. A commit without a planner's name has
-    /// the planner that `otherwise` runs, with its options.
-    pub(super) fn side(&self, name: &str, options: Table, otherwise: &Plan) -> Result<Side, Error> {
-        let seed = otherwise.seed.0;
+    /// the planner that `otherwise` runs, with the options that were given for it (`changes`).
+    ///
+    /// Another commit is told these and no defaults of this build: it lays them over its own.
+    pub(super) fn side(
+        &self,
+        name: &str,
+        options: Table,
+        otherwise: &Plan,
+        changes: &Table,
+    ) -> Result<Side, Error> {
         let Some(rest) = name.strip_prefix("git:") else {
-            let plan = self.plan(name, options, seed)?;
+            let plan = self.plan(name, options, otherwise.seed.0)?;
             return Ok(Side { asked: name.to_owned(), plan, launch: self.mine.clone() });
         };
-        let plan = match rest.split_once(':') {
-            None if options.is_empty() => otherwise.clone(),
-            None => self.plan(&otherwise.planner.name, options, seed)?,
-            Some((_, planner)) => self.plan(planner, options, seed)?,
+        let (revision, planner) = rest.split_once(':').unwrap_or((rest, &otherwise.planner.name));
+        if planner.starts_with("exec:") || planner.starts_with("lib:") {
+            return Err(Error::input(format!(
+                "{name}: `{planner}` is not built from this repository, so a revision of it says \
+                 nothing of that planner; name its older file as --baseline exec:... or lib:..."
+            )));
+        }
+        let options = if rest == revision && options.is_empty() {
+            changes.clone()
+        } else {
+            self.spec.changes(&PlannerSpec { name: planner.to_owned(), options })
         };
-        let revision = rest.split_once(':').map_or(rest, |(revision, _)| revision);
+        let planner =
+            PlannerChoice { name: planner.to_owned(), options, files_sha256: BTreeMap::new() };
+        let plan = Plan { planner, ..otherwise.clone() };
         let launch = match super::gate_git::build(revision)? {
             Some(program) => Launch { program, ..self.mine.clone() },
             None => self.mine.clone(),
@@ -85,7 +103,8 @@ impl<'a> Arms<'a> {
         mine.must_agree(&record.identity, &format!("the stored {role}")).map_err(|e| {
             Error::input(format!("{e}, or store it anew: cargo xtask baseline --role {role}"))
         })?;
-        let mut side = self.side(&record.named(), record.options.clone(), otherwise)?;
+        let mut side =
+            self.side(&record.named(), record.options.clone(), otherwise, &Table::new())?;
         side.asked = format!("{role} {}", record.named());
         Ok(side)
     }
@@ -101,7 +120,9 @@ impl Side {
     pub(super) fn start(self) -> Result<(Child, ArmIdentity), Error> {
         let child = Child::start(self.launch, self.plan.clone())?;
         let identity = child.identity().clone();
-        Ok((child, ArmIdentity { asked: self.asked, identity, plan: self.plan }))
+        let mut plan = self.plan;
+        plan.planner.options = child.options().clone();
+        Ok((child, ArmIdentity { asked: self.asked, identity, plan }))
     }
 
     /// As it was named.

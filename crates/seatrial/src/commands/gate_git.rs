@@ -77,6 +77,10 @@ fn build_tree(tree: &Path, target: &Path, revision: &str, kept: &Path) -> Result
         Ok(status) if status.success() => {
             fs::rename(&place, kept).map_err(Error::io("move", &place))
         }
+        // Ctrl-C reaches cargo too
+        Ok(_) if super::gate::was_interrupted() => {
+            Err(Error::Incomplete(format!("interrupted while git:{revision} was built")))
+        }
         Ok(status) => Err(Error::input(format!("git:{revision} does not build ({status})"))),
         Err(error) => Err(Error::input(format!("failed to start cargo: {error}"))),
     };
