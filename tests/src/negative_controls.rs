@@ -166,7 +166,9 @@ fn dribble_is_caught_by_its_small_alterations() {
         strata.map(|stratum| failed(&run(planner, "", stratum), Check::R8Dribble)).iter().sum()
     };
     let (dribble, zhuang) = (dribbles("dribble"), dribbles("zhuang"));
-    assert!(dribble > 5 && zhuang == 0, "{dribble} {zhuang}");
+    // a planner without memory dithers, too (F1), once in hundreds of encounters: small alterations
+    // count until the course, and not a cut of speed, has become apparent (rules, section 6)
+    assert!(dribble > 100 && zhuang < 5, "{dribble} {zhuang}");
 }
 
 /// A run that the planner spoilt is an outcome of its own: no rule is failed by it.

@@ -3,6 +3,7 @@
 //! one bad encounter costs one row.
 
 use crate::zhuang::{Zhuang, ZhuangOptions};
+use geom::HeadOnSector;
 use planner_api::{Command, Mission, Planner, PlannerEvents, PlannerStream, Situation};
 use serde::{Deserialize, Serialize};
 use std::hint::black_box;
@@ -80,6 +81,10 @@ impl Planner for Destructive {
             Some(only) => seed == only,
             None => PlannerStream::new(seed).uniform() < self.share,
         };
+    }
+
+    fn head_on_sector(&self) -> Option<HeadOnSector> {
+        self.zhuang.head_on_sector()
     }
 
     fn plan(&mut self, situation: &Situation<'_>) -> Command {
