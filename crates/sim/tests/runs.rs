@@ -114,8 +114,8 @@ fn planner_failures_are_outcomes() {
         assert_eq!(trace.outcome, outcome);
         assert!((trace.end_s - 20.0).abs() < 1e-12);
         assert_eq!((trace.samples(), trace.orders.len()), (21, 20));
-        // reset, 21 beats, events: two counts each
-        assert_eq!(beat.load(Ordering::Relaxed), 46);
+        // its sector, reset, 21 beats, events: two counts each
+        assert_eq!(beat.load(Ordering::Relaxed), 48);
     }
 }
 
