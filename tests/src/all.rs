@@ -5,6 +5,7 @@
 mod another_repository;
 mod end_to_end;
 mod fit_ais;
+mod gate_command;
 mod golden;
 mod hostile_planners;
 mod judge_again;

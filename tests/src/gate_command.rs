@@ -57,11 +57,8 @@ fn a_planner_passes_against_itself_and_a_broken_one_fails_with_its_replay() {
     let report = json(folder.join("worse/gate.json"));
     assert_eq!(report["verdict"], "fail");
     let failure = &report["new_failures"][0]["encounter"];
-    let failure = format!(
-        "{}/{:06}",
-        failure["stratum"].as_str().unwrap(),
-        failure["j"].as_u64().unwrap()
-    );
+    let failure =
+        format!("{}/{:06}", failure["stratum"].as_str().unwrap(), failure["j"].as_u64().unwrap());
     assert!(said.contains(&format!("gate --replay {failure} --out worse")), "{said}");
     let replayed = run_ok(folder, &format!("gate --replay {failure} --out worse"));
     assert!(replayed.contains("candidate hold-course") && replayed.contains("picture"));

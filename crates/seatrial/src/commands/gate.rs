@@ -30,6 +30,10 @@ const LEDGER: &str = "reports/gate-ledger.jsonl";
 const TIMED_CYCLES: u64 = 30;
 
 pub(super) fn run(args: &GateArgs, registry: Registry) -> Result<Ended, Error> {
+    // clap waives what an argument requires where another one conflicts with it
+    if args.small && !args.self_test {
+        return Err(Error::input("--small is a form of --self-test: give both"));
+    }
     let out = args.out.clone().unwrap_or_else(|| OUT.into());
     if let Some(id) = &args.replay {
         return super::gate_replay::run(&out, id, registry);
