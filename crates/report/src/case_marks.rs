@@ -2,6 +2,7 @@
 
 use crate::number::fixed;
 use record::{ContactWith, Judgement, Status, Trace};
+use std::collections::BTreeSet;
 
 /// A moment with its letter and what happened.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +58,14 @@ pub(crate) fn marks(trace: &Trace, judgement: &Judgement) -> Vec<Mark> {
         found.push((contact.t_s, text, true));
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Two checks can say the same of one act, each at its own moment: the first of them stays.
+    let bad: BTreeSet<String> =
+        found.iter().filter(|mark| mark.2).map(|mark| mark.1.clone()).collect();
+    let mut said = BTreeSet::new();
+    found.retain(|mark| said.insert(mark.1.clone()));
+    for mark in &mut found {
+        mark.2 = bad.contains(&mark.1);
+    }
     // Where there are too many, what went wrong stays.
     while found.len() > MARKS_MAX {
         let spare = found.iter().rposition(|mark| !mark.2).unwrap_or(found.len() - 1);

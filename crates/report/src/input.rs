@@ -27,6 +27,8 @@ pub struct Card {
     /// What this campaign in particular does not show; sentences. The report adds those that
     /// follow from the numbers.
     pub not_claimed: Vec<String>,
+    /// Several planners were run together: `comparison.html` is in the folder above.
+    pub beside: bool,
 }
 
 /// An encounter that is shown with its tracks.

@@ -41,4 +41,5 @@ pub use input::{Card, Case, Compared, Cost, Extra, Found, ReportInput};
 pub use manoeuvres::{Trials, manoeuvres_picture};
 pub use page::{css, not_claimed, verdict_sentences};
 pub use traffic::{Sample, Traffic, traffic_picture};
+pub use wording::BESIDE;
 pub use write::{Rendered, case_picture, draw_case, render, write, write_comparison};

@@ -56,6 +56,7 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
             encounters: encounters(input.summary.encounters),
             root_digest: &input.summary.root_digest,
             ended_by_wall_clock: input.summary.ended_by_wall_clock,
+            beside: if card.beside { wording::BESIDE } else { "" },
         },
         verdict: verdict(&whole.summary),
         cards: cards(&whole.summary),
@@ -155,6 +156,7 @@ struct Head<'a> {
     encounters: String,
     root_digest: &'a str,
     ended_by_wall_clock: u64,
+    beside: &'static str,
 }
 
 #[derive(Serialize)]

@@ -19,23 +19,51 @@ const NO_TIME: i64 = -9_999_999;
 
 /// The encounters as JSON that may stand inside a `script` element.
 pub(crate) fn data(cases: &[Case]) -> Result<String, ReportError> {
-    let shown: Vec<PlayerCase> = cases
+    let shown: Vec<String> = cases
         .iter()
         .filter(|case| case.trace.samples() > 1)
         .take(CASES_MAX)
-        .map(player_case)
-        .collect();
-    let json = serde_json::to_string(&shown).map_err(ReportError::Player)?;
+        .map(case_json)
+        .collect::<Result<_, _>>()?;
     // `</script>` and `<!--` would end the element; in JSON `<` stands only inside strings.
-    Ok(json.replace('<', "\\u003c"))
+    Ok(format!("[{}]", shown.join(",")).replace('<', "\\u003c"))
+}
+
+/// One encounter may take so many bytes, that all of them stay below 2 MB.
+const CASE_BYTES_MAX: usize = 95_000;
+
+/// The encounter with every sample, or with every so many samples that it is small enough.
+fn case_json(case: &Case) -> Result<String, ReportError> {
+    let mut every = 1;
+    loop {
+        let json = serde_json::to_string(&player_case(case, every)).map_err(ReportError::Player)?;
+        if json.len() <= CASE_BYTES_MAX || every >= case.trace.samples() {
+            return Ok(json);
+        }
+        every = (every + 1).max(every * json.len() / CASE_BYTES_MAX);
+    }
+}
+
+/// Values of every so many samples, and of the last one.
+fn thinned<T: Copy>(
+    values: impl ExactSizeIterator<Item = T>,
+    every: usize,
+) -> impl Iterator<Item = T> {
+    let last = values.len().saturating_sub(1);
+    values
+        .enumerate()
+        .filter(move |(k, _)| k.is_multiple_of(every) || *k == last)
+        .map(|(_, value)| value)
 }
 
 #[derive(Serialize)]
 struct PlayerCase {
     id: String,
     outcome: &'static str,
-    /// Interval of the samples, seconds.
+    /// Interval of the samples, seconds; the last one may be shorter.
     sample_s: f64,
+    /// When the last sample was taken, and the end of the run.
+    last_s: f64,
     end_s: f64,
     safety_m: f64,
     /// `hull` or `centre`: what `safety_m` and `range` mean.
@@ -95,26 +123,32 @@ struct Lane {
     t: Option<f64>,
 }
 
-fn player_case(case: &Case) -> PlayerCase {
+fn player_case(case: &Case, every: usize) -> PlayerCase {
     let trace = &case.trace;
     let points = |list: &[geom::Vec2]| list.iter().map(|p| [tenths(p.x), tenths(p.y)]).collect();
     let route: Vec<geom::Vec2> = trace.route.iter().map(|w| w.position_m).collect();
     PlayerCase {
         id: case.row.id.to_string(),
         outcome: case.row.outcome.name(),
-        sample_s: trace.sample_s,
+        sample_s: every as f64 * trace.sample_s,
+        last_s: trace.samples().saturating_sub(1) as f64 * trace.sample_s,
         end_s: trace.end_s,
         safety_m: trace.safety_radius_m,
         distance: match trace.distance {
             DistanceKind::Hull => "hull",
             DistanceKind::Centre => "centre",
         },
-        ships: std::iter::once(&trace.own).chain(&trace.targets).map(ship).collect(),
-        pairs: (0..trace.pairs.len().min(trace.targets.len())).map(|i| pair(case, i)).collect(),
+        ships: std::iter::once(&trace.own)
+            .chain(&trace.targets)
+            .map(|track| ship(track, every))
+            .collect(),
+        pairs: (0..trace.pairs.len().min(trace.targets.len()))
+            .map(|i| pair(case, i, every))
+            .collect(),
         route: points(&route),
         hazards: case.encounter.hazards.iter().map(|hazard| points(hazard)).collect(),
-        order_course: differences(trace.orders.iter().map(|o| tenths(to_deg(o.course_rad)))),
-        order_speed: differences(trace.orders.iter().map(|o| hundredths(o.speed_mps))),
+        order_course: series(trace.orders.iter().map(|o| tenths(to_deg(o.course_rad))), every),
+        order_speed: series(trace.orders.iter().map(|o| hundredths(o.speed_mps)), every),
         marks: marks(trace, &case.judgement)
             .into_iter()
             .map(|mark| PlayerMark { t: mark.time_s, text: mark.text, bad: mark.bad })
@@ -123,28 +157,28 @@ fn player_case(case: &Case) -> PlayerCase {
     }
 }
 
-fn ship(track: &ShipTrack) -> PlayerShip {
+fn ship(track: &ShipTrack, every: usize) -> PlayerShip {
     let all = 0..track.len();
     PlayerShip {
         hull: (track.ship.hull.corners_body_m().iter())
             .map(|c| [hundredths(c.x), hundredths(c.y)])
             .collect(),
-        north: differences(track.north_m.iter().map(|&m| tenths(m))),
-        east: differences(track.east_m.iter().map(|&m| tenths(m))),
-        psi: differences(track.psi_rad.iter().map(|&psi| tenths(to_deg(psi)))),
-        cog: differences(all.clone().map(|k| tenths(to_deg(track.cog_rad(k))))),
-        sog: differences(all.map(|k| hundredths(track.sog_mps(k)))),
+        north: series(track.north_m.iter().map(|&m| tenths(m)), every),
+        east: series(track.east_m.iter().map(|&m| tenths(m)), every),
+        psi: series(track.psi_rad.iter().map(|&psi| tenths(to_deg(psi))), every),
+        cog: series(all.clone().map(|k| tenths(to_deg(track.cog_rad(k)))), every),
+        sog: series(all.map(|k| hundredths(track.sog_mps(k))), every),
     }
 }
 
-fn pair(case: &Case, index: usize) -> PlayerPair {
+fn pair(case: &Case, index: usize, every: usize) -> PlayerPair {
     let trace = &case.trace;
     let predicted: Vec<geom::Cpa> = predictions(trace, index);
     let facts = case.judgement.pairs.get(index);
     PlayerPair {
-        range: differences(ranges(trace, &trace.pairs[index], index).map(tenths)),
-        tcpa: differences(predicted.iter().map(|cpa| cpa.tcpa_s.map_or(NO_TIME, tenths))),
-        dcpa: differences(predicted.iter().map(|cpa| tenths(cpa.dcpa_m))),
+        range: series(ranges(trace, &trace.pairs[index], index).into_iter().map(tenths), every),
+        tcpa: series(predicted.iter().map(|cpa| cpa.tcpa_s.map_or(NO_TIME, tenths)), every),
+        dcpa: series(predicted.iter().map(|cpa| tenths(cpa.dcpa_m)), every),
         obstacle_m: case.obstacle_radius_m.as_ref().and_then(|all| all.get(index).copied()),
         class: facts
             .and_then(|facts| facts.class)
@@ -177,18 +211,14 @@ fn predictions(trace: &Trace, index: usize) -> Vec<geom::Cpa> {
         .collect()
 }
 
-fn ranges<'a>(
-    trace: &'a Trace,
-    pair: &'a Pair,
-    index: usize,
-) -> Box<dyn Iterator<Item = f64> + 'a> {
+fn ranges(trace: &Trace, pair: &Pair, index: usize) -> Vec<f64> {
     match trace.distance {
-        DistanceKind::Hull => Box::new(pair.hull_m.iter().copied()),
+        DistanceKind::Hull => pair.hull_m.clone(),
         DistanceKind::Centre => {
             let target = &trace.targets[index];
             let samples = trace.own.len().min(target.len());
             let apart = |k| (target.position_m(k) - trace.own.position_m(k)).norm();
-            Box::new((0..samples).map(apart))
+            (0..samples).map(apart).collect()
         }
     }
 }
@@ -216,8 +246,9 @@ fn hundredths(value: f64) -> i64 {
     (value * 100.0).round() as i64
 }
 
-fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
-    values
+/// Every so many values, as differences from the one before.
+fn series(values: impl ExactSizeIterator<Item = i64>, every: usize) -> Vec<i64> {
+    thinned(values, every)
         .scan(0, |before, value| {
             let difference = value - *before;
             *before = value;
@@ -230,17 +261,28 @@ fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
 mod tests {
     use super::*;
 
+    fn added_up(series: Vec<i64>) -> Vec<i64> {
+        let mut sum = 0;
+        let add = |difference| {
+            sum += difference;
+            sum
+        };
+        series.into_iter().map(add).collect()
+    }
+
     #[test]
     fn differences_add_up_again() {
         let values = [5, 7, -3, -3, 1000];
-        let mut sum = 0;
-        let again: Vec<i64> = differences(values.into_iter())
-            .into_iter()
-            .map(|difference| {
-                sum += difference;
-                sum
-            })
-            .collect();
-        assert_eq!(again, values);
+        assert_eq!(added_up(series(values.into_iter(), 1)), values);
+    }
+
+    /// A collision is at the very end.
+    #[test]
+    fn the_last_value_stays_when_values_are_left_out() {
+        let values = [5, 7, -3, -3, 1000];
+        assert_eq!(added_up(series(values.into_iter(), 3)), [5, -3, 1000]);
+        assert_eq!(added_up(series(values.into_iter(), 4)), [5, 1000]);
+        assert_eq!(added_up(series(values.into_iter(), 9)), [5, 1000]);
+        assert_eq!(added_up(series(std::iter::empty(), 2)), [] as [i64; 0]);
     }
 }

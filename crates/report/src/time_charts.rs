@@ -44,14 +44,19 @@ fn range(sheet: &mut Sheet, area: Area, trace: &Trace, marks: &[Mark]) {
 }
 
 fn course(sheet: &mut Sheet, area: Area, trace: &Trace, marks: &[Mark]) {
-    let actual = unwrapped_deg((0..trace.samples()).map(|k| trace.own.cog_rad(k)), None);
-    let ordered = unwrapped_deg(trace.orders.iter().map(|order| order.course_rad), actual.first());
+    let cogs = (0..trace.samples()).map(|k| trace.own.cog_rad(k));
+    let orders = trace.orders.iter().map(|order| order.course_rad);
+    let (actual, ordered) = courses_deg(cogs, orders);
     let all = || actual.iter().chain(&ordered).copied();
     let (low, high) = (all().fold(f64::MAX, f64::min), all().fold(f64::MIN, f64::max));
     let room = (0.06 * (high - low)).max(5.0);
     let panel = chart(sheet, area, trace, "own course, deg", (low - room, high + room), marks);
-    panel.curve(sheet, &steps(trace, &ordered), Pen::new(Ink::Muted, 1.4).dashed(3.0));
-    panel.curve(sheet, &over_time(trace, &actual), Pen::new(Ink::Own, 2.0));
+    for part in without_jumps(&steps(trace, &ordered)) {
+        panel.curve(sheet, part, Pen::new(Ink::Muted, 1.4).dashed(3.0));
+    }
+    for part in without_jumps(&over_time(trace, &actual)) {
+        panel.curve(sheet, part, Pen::new(Ink::Own, 2.0));
+    }
 }
 
 fn speed(sheet: &mut Sheet, area: Area, trace: &Trace, marks: &[Mark]) {
@@ -90,15 +95,14 @@ fn chart(
     let head = Type::new(11.0, Ink::Text, At::Left).bold();
     sheet.text(title, area.x, area.y - 24.0, head);
     panel.frame(sheet);
-    let mut last = f64::MIN;
-    for mark in marks {
-        let x = panel.px(mark.time_s.clamp(0.0, panel.x.1));
+    let at = |mark: &Mark| panel.px(mark.time_s.clamp(0.0, panel.x.1));
+    let letters = side_by_side(&marks.iter().map(at).collect::<Vec<f64>>(), area.right());
+    for (mark, letter_x) in marks.iter().zip(letters) {
+        let x = at(mark);
         let ink = if mark.bad { Ink::Fail } else { Ink::Muted };
         sheet.line((x, area.y), (x, area.bottom()), Pen::new(ink, 1.0).faint(0.7));
-        // Letters of moments close to one another stand side by side.
-        last = x.max(last + 9.0);
         let look = Type::new(10.0, ink, At::Middle).bold();
-        sheet.text(&mark.letter.to_string(), last, area.y - 8.0, look);
+        sheet.text(&mark.letter.to_string(), letter_x, area.y - 8.0, look);
     }
     panel
 }
@@ -126,17 +130,54 @@ fn steps(trace: &Trace, values: &[f64]) -> Vec<(f64, f64)> {
     corners
 }
 
-/// Degrees without jumps at north, starting near `near` or within [0, 360).
-fn unwrapped_deg(angles_rad: impl Iterator<Item = f64>, near: Option<&f64>) -> Vec<f64> {
-    let mut unwrapped: Vec<f64> = Vec::new();
-    for angle_rad in angles_rad {
-        let next = match unwrapped.last().or(near) {
-            Some(&last) => last + to_deg(wrap(angle_rad - geom::units::deg(last))),
-            None => to_deg(angle_rad).rem_euclid(360.0),
-        };
-        unwrapped.push(next);
+/// Where the letters of moments stand: close ones side by side, none beyond `right`.
+fn side_by_side(wanted: &[f64], right: f64) -> Vec<f64> {
+    const APART: f64 = 9.0;
+    let mut places = wanted.to_vec();
+    for i in 1..places.len() {
+        places[i] = places[i].max(places[i - 1] + APART);
     }
-    unwrapped
+    let mut limit = right;
+    for place in places.iter_mut().rev() {
+        *place = place.min(limit);
+        limit = *place - APART;
+    }
+    places
+}
+
+/// A ship that turns farther than this in one run is drawn by the compass: a chart of some thousand
+/// degrees shows nothing.
+const TURNED_DEG_MAX: f64 = 720.0;
+
+/// Own courses and the orders in degrees. The courses do not jump at north; an order is within half
+/// a turn of the course that the ship has when it is given.
+fn courses_deg(
+    actual_rad: impl Iterator<Item = f64>,
+    ordered_rad: impl Iterator<Item = f64>,
+) -> (Vec<f64>, Vec<f64>) {
+    let mut actual: Vec<f64> = Vec::new();
+    for angle_rad in actual_rad {
+        let first = to_deg(angle_rad).rem_euclid(360.0);
+        actual.push(actual.last().map_or(first, |&last| near_deg(angle_rad, last)));
+    }
+    let all = || actual.iter().copied();
+    if all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min) > TURNED_DEG_MAX {
+        actual.iter_mut().for_each(|course| *course = course.rem_euclid(360.0));
+    }
+    let last = actual.last().copied().unwrap_or(0.0);
+    let order = |(k, angle_rad): (usize, f64)| near_deg(angle_rad, *actual.get(k).unwrap_or(&last));
+    let ordered = ordered_rad.enumerate().map(order).collect();
+    (actual, ordered)
+}
+
+/// An angle in degrees, within half a turn of another.
+fn near_deg(angle_rad: f64, other_deg: f64) -> f64 {
+    other_deg + to_deg(wrap(angle_rad - geom::units::deg(other_deg)))
+}
+
+/// The pieces of a curve of courses between jumps of more than half a turn.
+fn without_jumps(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
+    points.chunk_by(|a, b| (a.1 - b.1).abs() <= 180.0)
 }
 
 #[cfg(test)]
@@ -144,14 +185,34 @@ mod tests {
     use super::*;
     use geom::units::deg;
 
+    fn close(found: &[f64], expected: &[f64]) -> bool {
+        found.len() == expected.len()
+            && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9)
+    }
+
     #[test]
-    fn courses_run_over_north_without_a_jump() {
+    fn courses_run_over_north_without_a_jump_and_orders_stay_beside_them() {
         let courses = [350.0, 358.0, 4.0, 12.0].map(deg);
-        let found = unwrapped_deg(courses.into_iter(), None);
-        for (value, expected) in found.iter().zip([350.0, 358.0, 364.0, 372.0]) {
-            assert!((value - expected).abs() < 1e-9, "{found:?}");
-        }
-        let near = unwrapped_deg([deg(5.0)].into_iter(), Some(&355.0));
-        assert!((near[0] - 365.0).abs() < 1e-9);
+        // the last order is farther than half a turn from the one before, and not from the ship
+        let orders = [5.0, 90.0, 170.0, 340.0].map(deg);
+        let (actual, ordered) = courses_deg(courses.into_iter(), orders.into_iter());
+        assert!(close(&actual, &[350.0, 358.0, 364.0, 372.0]), "{actual:?}");
+        assert!(close(&ordered, &[365.0, 450.0, 530.0, 340.0]), "{ordered:?}");
+    }
+
+    #[test]
+    fn a_ship_that_spins_is_drawn_by_the_compass_and_cut_where_it_passes_north() {
+        let spinning = (0..20).map(|k| deg(100.0 * f64::from(k)));
+        let (actual, _) = courses_deg(spinning, std::iter::empty());
+        assert!(actual.iter().all(|course| (0.0..360.0).contains(course)), "{actual:?}");
+        let points: Vec<(f64, f64)> = actual.iter().map(|&course| (0.0, course)).collect();
+        let parts: Vec<usize> = without_jumps(&points).map(<[_]>::len).collect();
+        assert_eq!(parts, [4, 4, 3, 4, 3, 2]);
+    }
+
+    #[test]
+    fn letters_stand_apart_and_inside() {
+        let places = side_by_side(&[10.0, 12.0, 95.0, 99.0, 100.0], 100.0);
+        assert!(close(&places, &[10.0, 19.0, 82.0, 91.0, 100.0]), "{places:?}");
     }
 }

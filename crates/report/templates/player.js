@@ -3,7 +3,7 @@
 const $ = id => document.getElementById(id);
 const cases = JSON.parse($('p-data').textContent);
 if (!cases.length) return;
-const AHEAD_S = 60, NO_TIME = -9999999, TICK_MS = 40, MOVING_MPS = 0.05;
+const AHEAD_S = 60, NO_TIME = -9999999, TICK_MS = 40;
 const sum = (list, unit) => { let s = 0; return list.map(d => (s += d) / unit); };
 for (const c of cases) {
   for (const s of c.ships) {
@@ -39,7 +39,13 @@ const pose = (s, x) => {
 const fixed = (v, d) => v === null || !Number.isFinite(v) ? '–' : v.toFixed(d).replace('-',
   '\u2212');
 const deg360 = v => ((v % 360) + 360) % 360;
-const sample = () => Math.min(t / now.sample_s, now.ships[0].north.length - 1);
+const time = k => Math.min(k * now.sample_s, now.last_s);
+// The place of the moment among the samples; the last two may be closer than the others.
+const sample = () => {
+  const last = now.ships[0].north.length - 1, x = t / now.sample_s, from = time(last - 1);
+  if (x <= last - 1) return x;
+  return Math.min(last - 1 + (t - from) / (now.last_s - from), last);
+};
 
 function themed() {
   const style = getComputedStyle(document.documentElement);
@@ -47,9 +53,9 @@ function themed() {
     'nominal'])
     ink[name] = style.getPropertyValue('--' + name).trim();
 }
-function canvas(id, wide, high) {
+function canvas(id, heightOf) {
   const el = $(id), dots = window.devicePixelRatio || 1;
-  const width = el.clientWidth || wide, height = Math.round(width * high / wide);
+  const width = el.clientWidth || 480, height = Math.round(heightOf(width));
   el.style.height = height + 'px';
   if (el.width !== Math.round(width * dots) || el.height !== Math.round(height * dots)) {
     el.width = Math.round(width * dots); el.height = Math.round(height * dots);
@@ -72,7 +78,7 @@ function line(g, points, colour, width, dash) {
 }
 
 function drawMap() {
-  const { g, width, height } = canvas('p-map', 560, 560), x = sample();
+  const { g, width, height } = canvas('p-map', width => width), x = sample();
   const poses = now.ships.map(s => pose(s, x)), own = poses[0], across = Number($('p-view').value);
   let n = own.n, e = own.e, scale;
   if (across) scale = width / across;
@@ -124,7 +130,11 @@ function drawMap() {
     line(g, [c, px(p.n + p.vn * AHEAD_S, p.e + p.ve * AHEAD_S)], colour, 1.2, [6, 3]);
     path(g, body(s, p), true); g.fillStyle = colour; g.fill();
     g.beginPath(); g.arc(c[0], c[1], 2, 0, 2 * Math.PI); g.fill();
-    g.fillText(i ? (now.ships.length > 2 ? 'target ' + i : 'target') : 'own', c[0] + 7, c[1] - 7);
+    // names on four sides, since ships that meet are close to one another
+    const name = i ? (now.ships.length > 2 ? 'target ' + i : 'target') : 'own';
+    g.textAlign = i % 4 < 2 ? 'left' : 'right';
+    g.fillText(name, c[0] + (i % 4 < 2 ? 7 : -7), c[1] + (i % 4 % 3 ? -7 : 16));
+    g.textAlign = 'left';
   });
   bar(g, height, scale, width); sentence(g, width);
 }
@@ -164,14 +174,25 @@ function sentence(g, width) {
   lines.forEach((text, i) => g.fillText(text, 12, 22 + 16 * i));
 }
 
+const TOP = 36, LANE = 16, CHART_MIN = 90;
+const near = (v, other) => other + ((v - other + 540) % 360 + 360) % 360 - 180;
+// Own courses without a jump at north, or by the compass where she spins; orders beside them.
+function courses() {
+  let last = now.ships[0].cog[0];
+  let course = now.ships[0].cog.map(v => last = near(v, last));
+  if (Math.max(...course) - Math.min(...course) > 720) course = course.map(deg360);
+  const order = now.order_course.map((v, k) => near(v, course[Math.min(k, course.length - 1)]));
+  return [course, order];
+}
 function drawCharts() {
-  const { g, width, height } = canvas('p-charts', 480, 560);
-  const left = 46, right = width - 12, lane = 15, lanes = now.lanes.length + now.pairs.length;
-  const high = Math.max(60, (height - lanes * lane - 110) / 3), own = now.ships[0];
+  const lanes = now.lanes.length + now.pairs.length, below = lanes * LANE + 12;
+  const wanted = width => Math.max(width * 1.16, TOP + 3 * (CHART_MIN + 28) + below);
+  const { g, width, height } = canvas('p-charts', wanted);
+  const left = 46, right = width - 12, high = (height - TOP - below) / 3 - 28;
   const x = s => left + (right - left) * s / Math.max(now.end_s, now.sample_s);
-  const time = list => list.map((v, k) => [k * now.sample_s, v]);
-  let top = 22;
-  const chart = (title, curves, low, limit, level) => {
+  const timed = list => list.map((v, k) => [time(k), v]);
+  let top = TOP;
+  const chart = (title, curves, low, limit, level, jump = Infinity) => {
     const y = v => top + high - high * (v - low) / (limit - low || 1);
     g.strokeStyle = ink.grid; g.lineWidth = 1; g.strokeRect(left, top, right - left, high);
     g.fillStyle = ink.text; g.fillText(title, left, top - 6);
@@ -179,51 +200,59 @@ function drawCharts() {
     g.fillText(fixed(limit, 0), left - 5, top + 9);
     g.fillText(fixed(low, 0), left - 5, top + high); g.textAlign = 'left';
     if (level !== undefined) line(g, [[left, y(level)], [right, y(level)]], ink.text, 1, [4, 4]);
-    for (const [points, colour, dash] of curves) line(g, points.map(p => [x(p[0]), y(p[1])]),
-      colour, 1.6, dash);
+    for (const [points, colour, dash] of curves) {
+      let part = [];
+      points.forEach((p, k) => {
+        if (k && Math.abs(p[1] - points[k - 1][1]) > jump) {
+          line(g, part, colour, 1.6, dash); part = [];
+        }
+        part.push([x(p[0]), y(p[1])]);
+      });
+      line(g, part, colour, 1.6, dash);
+    }
     top += high + 28;
   };
-  const ranges = now.pairs.map(p => p.range), most = Math.max(now.safety_m, ...ranges.flat()) *
-    1.05;
+  const ranges = now.pairs.map(p => p.range);
+  const most = Math.max(now.safety_m, ...ranges.flat()) * 1.05;
   chart(now.distance === 'hull' ? 'distance between hulls, m' :
     'distance between reference points, m',
-    ranges.map(r => [time(r), ink.target]), 0, most, now.safety_m);
-  const unwrap = (list, first) => { let last = first ?? list[0];
-  return list.map(v => last += ((v - last + 540) % 360 + 360) % 360 - 180); };
-  let course = unwrap(own.cog), order = unwrap(now.order_course, course[0]);
-  // a ship that spins around would leave a chart of some thousand degrees
-  if (Math.max(...course) - Math.min(...course) > 720) { course = own.cog.map(deg360);
-  order = now.order_course.map(deg360); }
-  const both = [...course, ...order], low = Math.min(...both) - 5, limit = Math.max(...both) + 5;
-  chart('own course, deg (dashed: ordered)', [[time(order), ink.muted, [3, 3]], [time(course),
-    ink.own]], low, limit);
-  const speeds = now.ships.map((s, i) => [time(s.sog), i ? ink.target : ink.own]);
-  chart('speed, m/s (dashed: ordered)', [[time(now.order_speed), ink.muted, [3, 3]],
+    ranges.map(r => [timed(r), ink.target]), 0, most, now.safety_m);
+  const [course, order] = courses(), both = [...course, ...order];
+  chart('own course, deg (dashed: ordered)', [[timed(order), ink.muted, [3, 3]], [timed(course),
+    ink.own]], Math.min(...both) - 5, Math.max(...both) + 5, undefined, 180);
+  const speeds = now.ships.map((s, i) => [timed(s.sog), i ? ink.target : ink.own]);
+  chart('speed, m/s (dashed: ordered)', [[timed(now.order_speed), ink.muted, [3, 3]],
     ...speeds.reverse()], 0,
     Math.max(...now.ships.flatMap(s => s.sog), ...now.order_speed) * 1.1 + .1);
-  top -= 8;
+  top -= 14;
+  const words = [];
   const band = (from, to, colour) => { if (to > from) { g.fillStyle = colour;
-  g.fillRect(x(from), top, x(to) - x(from), lane - 4); } };
-  const label = text => { g.fillStyle = ink.text; g.fillText(text, left + 4, top + 9); };
+  g.fillRect(x(from), top, x(to) - x(from), LANE - 3); } };
   now.pairs.forEach((p, i) => {
     const end = p.released_s ?? now.end_s, starts = [p.risk_s, ...p.stages_s];
     band(0, now.end_s, ink.grid);
     starts.forEach((from, k) => { if (from !== null) { g.globalAlpha = .2 + .2 * k;
     band(from, end, ink.warn); g.globalAlpha = 1; } });
-    label((now.pairs.length > 1 ? 'target ' + (i + 1) + ': ' : '') + 'risk and stages, ' +
-      p.class + (p.role ? ', ' + p.role : ''));
-    top += lane;
+    words.push([(now.pairs.length > 1 ? 'target ' + (i + 1) + ': ' : '') + 'risk and stages, ' +
+      p.class + (p.role ? ', ' + p.role : ''), top + 10]);
+    top += LANE;
   });
   for (const l of now.lanes) {
     band(0, now.end_s, ink.grid);
     g.globalAlpha = .55; band(l.t ?? 0, now.end_s, ink[{ fail: 'fail', warn: 'warn',
       pass: 'good' }[l.status] || 'muted']); g.globalAlpha = 1;
-    label(l.title + ': ' + l.status); top += lane;
+    words.push([l.title + ': ' + l.status, top + 10]); top += LANE;
   }
-  for (const m of now.marks) line(g, [[x(m.t), 22], [x(m.t), top]], m.bad ? ink.fail :
+  for (const m of now.marks) line(g, [[x(m.t), TOP], [x(m.t), top]], m.bad ? ink.fail :
     ink.nominal, 1, [2, 3]);
-  line(g, [[x(t), 16], [x(t), top]], ink.text, 1.5);
-  g.fillStyle = ink.text; g.fillText(fixed(t, 1) + ' s', Math.min(x(t) + 4, right - 46), 12);
+  line(g, [[x(t), 18], [x(t), top]], ink.text, 1.5);
+  g.fillStyle = ink.text; g.lineJoin = 'round';
+  for (const [text, y] of words) {
+    g.strokeStyle = ink.paper; g.lineWidth = 3; g.strokeText(text, left + 4, y);
+    g.fillText(text, left + 4, y);
+  }
+  g.lineJoin = 'miter';
+  g.fillText(fixed(t, 1) + ' s', Math.max(left, Math.min(x(t) - 14, right - 46)), 13);
 }
 
 function readout() {
@@ -308,4 +337,5 @@ addEventListener('hashchange', follow);
 matchMedia('(prefers-color-scheme:dark)').addEventListener('change', () => { themed(); draw(); });
 $('player').hidden = false;
 themed(); select(cases[0], 0); follow();
+document.fonts.ready.then(draw);
 })();

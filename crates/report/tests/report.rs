@@ -126,6 +126,7 @@ fn page_needs_no_network_and_its_tags_are_balanced() {
     assert!(text.contains("seatrial replay reports/quick-zhuang crossing_stbd/000007"));
     assert!(text.contains("nothing that the other ship did made it so"));
     assert_eq!(text.matches("@font-face").count(), 2);
+    assert!(!text.contains("comparison.html"));
     assert!(text.contains("var(--own)") && !text.contains("\"#1F5FBF\""));
 }
 
@@ -149,6 +150,30 @@ fn same_input_gives_the_same_bytes_and_other_numbers_others() {
     for (a, b) in once.iter().zip(render(&other).unwrap()) {
         assert_eq!(a.text == b.text, a.path.to_str().unwrap().contains("case"), "{:?}", a.path);
     }
+}
+
+/// A collision is at the end of a run; a long run must not make the page heavy.
+#[test]
+fn long_runs_are_played_from_fewer_samples_to_their_end() {
+    let (summary, tallies) = data(&["crossing_stbd"], 50, 20);
+    let played = |n: usize| {
+        let text = page(&summary, &tallies, &[case(0, 25.0, 3, n, 1700.0)]);
+        let data = text.split_once("id=\"p-data\">").unwrap().1.split_once("</script>").unwrap().0;
+        assert!(data.len() <= 100_000, "{n} samples take {} bytes", data.len());
+        let mut cases: serde_json::Value = serde_json::from_str(data).unwrap();
+        cases[0].take()
+    };
+    let north = |case: &serde_json::Value| -> Vec<i64> {
+        let list = case["ships"][0]["north"].as_array().unwrap();
+        list.iter().map(|d| d.as_i64().unwrap()).collect()
+    };
+    let short = played(260);
+    assert_eq!((short["sample_s"].as_f64(), north(&short).len()), (Some(1.0), 260));
+    let long = played(5000);
+    let track = case(0, 25.0, 3, 5000, 1700.0).trace.own;
+    assert_eq!(long["last_s"], 4999.0);
+    assert!(long["sample_s"].as_f64().unwrap() > 1.0, "{}", long["sample_s"]);
+    assert_eq!(north(&long).iter().sum::<i64>(), (10.0 * track.north_m[4999]).round() as i64);
 }
 
 /// A picture for each moment that counts, under the scene's own name.
@@ -180,6 +205,27 @@ fn named_scenes_are_drawn_as_the_paper_draws_them() {
     assert!(three.contains("(d) 259 s: paths") && three.contains("closest to 1, "));
     // start and goal stand in the first panel and in the last
     assert_eq!((one.matches("\nS\n").count(), one.matches("\nG\n").count()), (2, 2));
+}
+
+#[test]
+fn a_page_beside_others_differs_by_the_link_alone() {
+    let (summary, tallies) = data(&["head_on"], 50, 20);
+    let text = |beside| {
+        let card = report::Card { beside, ..card() };
+        let (findings, cases, scenes) = (&[], &[], &[]);
+        let input = ReportInput {
+            card: &card,
+            summary: &summary,
+            tallies: &tallies,
+            findings,
+            cases,
+            scenes,
+        };
+        render(&input).unwrap().swap_remove(0).text
+    };
+    let beside = text(true);
+    assert!(beside.contains("href=\"../comparison.html\""));
+    assert_eq!(beside.replacen(report::BESIDE, "", 1), text(false));
 }
 
 #[test]

@@ -209,6 +209,7 @@ pub(crate) fn card(plan: &Plan) -> Result<Card, Error> {
         replay_command: "seatrial replay . {id}".to_owned(),
         resolved,
         not_claimed: Vec::new(),
+        beside: false,
     })
 }
 

@@ -24,7 +24,8 @@ pub(super) fn run(args: &CampaignArgs, registry: Registry) -> Result<Ended, Erro
     let mut results = Vec::new();
     for plan in &plans {
         let folder = if several { out.join(folder_name(&plan.planner.name)) } else { out.clone() };
-        let job = Job { plan, registry: &registry, threads, interrupted: &interrupted, args };
+        let registry = &registry;
+        let job = Job { plan, registry, threads, interrupted: &interrupted, args, several };
         if let Some(result) = job.run(&folder)? {
             results.push(result);
         }
@@ -104,6 +105,8 @@ struct Job<'a> {
     threads: usize,
     interrupted: &'a AtomicBool,
     args: &'a CampaignArgs,
+    /// Other planners meet the same encounters.
+    several: bool,
 }
 
 impl Job<'_> {
@@ -139,8 +142,8 @@ impl Job<'_> {
             }
             return Ok(None);
         }
-        finish::finish(plan, self.registry, &folder, &mut stopwatch, (self.threads, quiet))
-            .map(Some)
+        let how = finish::How { threads: self.threads, quiet, beside: self.several };
+        finish::finish(plan, self.registry, &folder, &mut stopwatch, how).map(Some)
     }
 
     fn run_parts(&self, folder: &Folder, shard: (u64, u64)) -> Result<(), Error> {

@@ -43,13 +43,23 @@ impl RowSink for TableSink {
     }
 }
 
+/// How a result was made, and what is said of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct How {
+    pub(super) threads: usize,
+    /// Print nothing.
+    pub(super) quiet: bool,
+    /// It is one of several that are compared in the folder above.
+    pub(super) beside: bool,
+}
+
 /// Writes every file of a result, the manifest last, and prints the headline.
 pub(super) fn finish(
     plan: &Plan,
     registry: &Registry,
     folder: &Folder,
     stopwatch: &mut Stopwatch,
-    (threads, quiet): (usize, bool),
+    how: How,
 ) -> Result<PlannerResult, Error> {
     let dir = folder.path();
     let sink = table::ParquetSink::create(dir.join("runs.parquet"));
@@ -57,21 +67,22 @@ pub(super) fn finish(
     let finished = campaign::finish(plan, folder, &mut sink)?;
     sink.0.finish().map_err(|e| Error::Fault(format!("failed to {e}")))?;
     stopwatch.lap("table");
-    let rendering = Rendering::new(
+    let mut rendering = Rendering::new(
         plan,
         registry,
         finished.tallies.clone(),
         finished.root_digest.clone(),
         (&finished.cases, &finished.findings, &finished.disagreements),
     )?;
+    rendering.card.beside = how.beside;
     files::write(&dir.join("summary.json"), rendering.summary.to_json().as_bytes())?;
     report::write(dir, &rendering.input()).map_err(|e| Error::Fault(format!("failed to {e}")))?;
     stopwatch.lap("report");
     manifest::write(dir, plan, &finished)?;
-    let timing = stopwatch.json(threads, finished.encounters);
+    let timing = stopwatch.json(how.threads, finished.encounters);
     files::write(&dir.join("timing.json"), timing.as_bytes())?;
     folder.end()?;
-    if !quiet {
+    if !how.quiet {
         say_text!("{}", headline::table(&rendering.summary, headline::terminal_columns()));
         say!("root digest {}", finished.root_digest);
         if let Some(warning) = headline::wall_clock(rendering.summary.ended_by_wall_clock) {

@@ -57,7 +57,13 @@ pub(super) fn merge(
     campaign::engine::quiet_planner_panics();
     let mut stopwatch = Stopwatch::start();
     let folder = Folder::merged(dir, &plan, parts)?;
-    finish::finish(&plan, &registry, &folder, &mut stopwatch, (1, quiet))?;
+    finish::finish(
+        &plan,
+        &registry,
+        &folder,
+        &mut stopwatch,
+        finish::How { threads: 1, quiet, beside: false },
+    )?;
     Ok(Ended::Done)
 }
 
