@@ -8,7 +8,10 @@ use serde::Serialize;
 use summary::StratumSummary;
 
 /// The line of a page that stands beside others; a page alone, as in a pack, is without it.
-pub const BESIDE: &str = "<p class=\"sub\"><a href=\"../comparison.html\">All planners of this run side by side</a></p>\n";
+pub const BESIDE: &str = concat!(
+    "<p class=\"sub\"><a href=\"../comparison.html\">",
+    "All planners of this run side by side</a></p>\n"
+);
 
 /// What was found, in sentences.
 #[derive(Serialize)]
