@@ -4,6 +4,7 @@
 
 mod another_repository;
 mod end_to_end;
+mod evidence;
 mod fit_ais;
 mod gate_command;
 mod golden;

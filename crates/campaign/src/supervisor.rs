@@ -161,8 +161,12 @@ impl Supervisor<'_> {
         Ok(guilty)
     }
 
-    /// How an encounter ends that is run alone, in words too; `None` where it ends well.
-    fn trial(
+    /// How an encounter ends that is run alone in a process of its own, in words too; `None` where
+    /// the process does not end with it. `folder` has the plan and is not finished.
+    ///
+    /// # Errors
+    /// `Incomplete` when the user stopped it; the engine's own errors.
+    pub fn trial(
         &self,
         folder: &Folder,
         (stratum, j): Suspect,

@@ -80,7 +80,7 @@ pub(crate) fn page(
         limits: &LIMITS,
         defects: &DEFECTS,
         assumptions: &sections.assumptions,
-        excluded: excluded(&whole),
+        excluded: excluded(&whole, input.report.summary.ended_by_wall_clock),
         asked_twice: plan.run.twice_run_share * 100.0,
         second_judge: &input.report.summary.second_judge,
         lines: claims.len(),
@@ -290,7 +290,7 @@ fn untested(claims: &[Claim]) -> Vec<String> {
 }
 
 /// Runs that are in every denominator and have no outcome, by reason.
-fn excluded(whole: &StratumSummary) -> Vec<String> {
+fn excluded(whole: &StratumSummary, clocked: u64) -> Vec<String> {
     let mut lines: Vec<String> = (whole.outcomes.iter())
         .filter(|(outcome, n)| **n > 0 && outcome.is_planner_failure())
         .map(|(outcome, n)| format!("{n} ended with {}", outcome.name().replace('_', " ")))
@@ -298,6 +298,12 @@ fn excluded(whole: &StratumSummary) -> Vec<String> {
     let inconclusive: u64 = (whole.checks.values())
         .map(|statuses| statuses.get(&Status::Inconclusive).copied().unwrap_or(0))
         .sum();
+    if clocked > 0 {
+        lines.push(format!(
+            "{clocked} ended by a limit on the wall clock: a faster machine might not have ended \
+             them, and the root digest would then be another"
+        ));
+    }
     lines.push(format!("{} of unknown outcome in all", whole.unknown));
     lines.push(format!("{inconclusive} verdicts inconclusive"));
     lines

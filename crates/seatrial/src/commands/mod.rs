@@ -29,6 +29,7 @@ mod speed;
 mod vectors;
 mod verify;
 mod verify_again;
+mod verify_lost;
 mod verify_planner;
 
 pub(crate) use judge::JudgedAgain;

@@ -1,6 +1,7 @@
 //! `verify`, its last part: failures and a random sample of the encounters are run again.
 
 use super::verify::Wanted;
+use super::verify_lost;
 use crate::rendering::takes_process;
 use crate::say::say;
 use campaign::worker::{Shop, Worker};
@@ -39,7 +40,7 @@ pub(super) fn run_again(
         draws += 1;
     }
     let failures: BTreeSet<&EncounterId> = gathered.failures.iter().take(FAILURES_MAX).collect();
-    let mut rows: Vec<(RunRow, bool)> = Vec::new();
+    let mut rows: Vec<Chosen> = Vec::new();
     for (index, row) in
         table::read_rows(table).map_err(|e| Error::input(e.to_string()))?.enumerate()
     {
@@ -50,41 +51,53 @@ pub(super) fn run_again(
         }
     }
     campaign::engine::quiet_planner_panics();
-    let lost = rows.iter().filter(|(row, _)| takes_process(row.outcome)).count();
-    rows.retain(|(row, _)| !takes_process(row.outcome));
-    let differing = differing(plan, registry, &rows)?;
-    let sampled = rows.iter().filter(|(_, sampled)| *sampled).count() as u64;
-    let bad = differing.iter().filter(|found| found.sampled).count() as u64;
+    let (lost, rows): (Vec<_>, Vec<_>) =
+        rows.into_iter().partition(|(row, _)| takes_process(row.outcome));
+    let mut differing = differing(plan, registry, &rows)?;
+    let run = rows.iter().filter(|(_, sampled)| *sampled).count();
     say!(
-        "run again: {} encounters, {} failures of {} and a sample of {sampled} (seed {seed}); \
+        "run again: {} encounters, {} failures of {} and a sample of {run} (seed {seed}); \
          {} differ",
         rows.len(),
         failures.len(),
         gathered.failures.len(),
         differing.len()
     );
-    if lost > 0 {
-        say!("  not run again: {lost} in which the planner takes its process with it");
-    }
-    if sampled > 0 {
-        let upper = stats::clopper_pearson_upper(bad, sampled, 1.0 - CONFIDENCE)
-            .map_err(|e| Error::Fault(e.to_string()))?;
-        say!(
-            "  at {:.0} % confidence at most {:.3} % of all {} encounters could differ",
-            100.0 * CONFIDENCE,
-            100.0 * if sampled == gathered.rows { bad as f64 / sampled as f64 } else { upper },
-            gathered.rows
-        );
-    }
+    let lost = verify_lost::run_again(plan, &lost)?;
+    differing.extend(lost.differing);
+    let bad = differing.iter().filter(|found| found.sampled).count() as u64;
+    say_bound((bad, lost.unknown, n), gathered.rows)?;
     let problem =
         |found: Differing| Problem { path: "result/runs.parquet".to_owned(), what: found.what };
     Ok(differing.into_iter().map(problem).collect())
 }
 
+/// What a sample says of all rows: `bad` of `n` differ, `unknown` were not run again and may.
+fn say_bound((bad, unknown, n): (u64, u64, u64), rows: u64) -> Result<(), Error> {
+    if n == 0 {
+        return Ok(());
+    }
+    let most = bad + unknown;
+    let upper = stats::clopper_pearson_upper(most, n, 1.0 - CONFIDENCE)
+        .map_err(|e| Error::Fault(e.to_string()))?;
+    say!(
+        "  at {:.0} % confidence at most {:.3} % of all {rows} encounters could differ",
+        100.0 * CONFIDENCE,
+        100.0 * if n == rows { most as f64 / n as f64 } else { upper }
+    );
+    if unknown > 0 {
+        say!("  ({unknown} of the sample were not run again and count as differing)");
+    }
+    Ok(())
+}
+
+/// A row that is to be made again, and whether it is one of the sample.
+pub(super) type Chosen = (RunRow, bool);
+
 /// An encounter that gave another row.
-struct Differing {
-    sampled: bool,
-    what: String,
+pub(super) struct Differing {
+    pub(super) sampled: bool,
+    pub(super) what: String,
 }
 
 impl Differing {
@@ -104,15 +117,11 @@ impl Differing {
 }
 
 /// The encounters whose row is another when they are run again, in the order of the rows.
-fn differing(
-    plan: &Plan,
-    registry: &Registry,
-    rows: &[(RunRow, bool)],
-) -> Result<Vec<Differing>, Error> {
+fn differing(plan: &Plan, registry: &Registry, rows: &[Chosen]) -> Result<Vec<Differing>, Error> {
     let shop = Shop::new(plan, registry)?;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let share = rows.len().div_ceil(threads).max(1);
-    let work = |rows: &[(RunRow, bool)]| -> Result<Vec<Differing>, Error> {
+    let work = |rows: &[Chosen]| -> Result<Vec<Differing>, Error> {
         let mut worker = Worker::new(&shop)?;
         let mut found = Vec::new();
         for (row, sampled) in rows {
