@@ -117,6 +117,7 @@ pub fn params(rules: &RuleSet) -> Result<stl::Params, Error> {
     let class = &rules.classification;
     Ok(stl::Params {
         risk_distance_m: rules.risk.d_risk_m,
+        close_quarters_m: rules.restricted_visibility.close_quarters_m,
         risk_tcpa_s: rules.risk.t_risk_s,
         risk_hold_s: rules.risk.persistence_s,
         risk_close_factor: rules.risk.close_factor,

@@ -7,6 +7,7 @@
 use crate::action::Action;
 use crate::case::Case;
 use crate::life::PairLife;
+use crate::risk::opening_m;
 use crate::ruling::Ruling;
 use crate::signal::OwnSignals;
 use geom::EncounterClass;
@@ -33,9 +34,10 @@ pub(crate) fn resolved_without_nominal(
         DistanceKind::Hull => life.actual.hull_dcpa_m(k, before_mps),
     };
     let seen = crate::risk::relative(&life.actual, k);
+    let by_radar = !life.in_sight_by(k);
     let turned_rad = own.heading_rad[k] - action.heading_0_rad;
     let beta_rad = geom::wrap(seen.beta_rad + turned_rad);
-    (ahead && dcpa_m < life.rules.risk.d_risk_m)
+    (ahead && dcpa_m < opening_m(life.rules, by_radar))
         .then(|| geom::classify(beta_rad, seen.alpha_rad, life.rules.head_on()))
 }
 

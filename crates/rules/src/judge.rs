@@ -261,7 +261,7 @@ impl<'a> Bench<'a> {
             return false;
         }
         let mut opened = Vec::new();
-        scanner.scan(&life.actual, life.trace.sample_s, life.rules, &mut opened);
+        scanner.scan(&life.actual, life.trace.sample_s, life.rules, false, &mut opened);
         opened.is_empty()
     }
 

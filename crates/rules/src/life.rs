@@ -8,7 +8,7 @@ use crate::pair::PairTracks;
 use crate::risk::{Interval, RiskScanner, relative};
 use crate::ruleset::RuleSet;
 use geom::{EncounterClass, Relative, Vec2, classify, wrap};
-use record::{ContactWith, LastMinute, Pair, Trace};
+use record::{ContactWith, LastMinute, Pair, Trace, Visibility};
 
 /// One pair, whatever role it is judged under.
 #[derive(Debug)]
@@ -73,7 +73,13 @@ impl<'a> PairLife<'a> {
             passed: None,
         };
         let judged = life.nominal.unwrap_or(actual);
-        scanner.scan(&judged, trace.sample_s, rules, &mut life.risk);
+        let by_radar = matches!(trace.visibility, Visibility::Restricted { .. });
+        scanner.scan(&judged, trace.sample_s, rules, by_radar, &mut life.risk);
+        let opens = life.risk.first().map(|&(k, _)| k);
+        if by_radar && opens.is_some_and(|k| life.in_sight_by(k)) {
+            // seen before Rule 19 had anything to say: the risk of Rule 7 decides
+            scanner.scan(&judged, trace.sample_s, rules, false, &mut life.risk);
+        }
         life.onset = life.risk.first().map(|&(k, _)| Onset::new(&judged, k, rules));
         life.passed = life.closest();
         life
@@ -83,7 +89,7 @@ impl<'a> PairLife<'a> {
     /// Risk that is open then opens anew at that sample.
     pub(crate) fn in_sight_from(&self, from: usize, scanner: &mut RiskScanner) -> Self {
         let mut risk = Vec::with_capacity(1);
-        scanner.scan(&self.actual, self.trace.sample_s, self.rules, &mut risk);
+        scanner.scan(&self.actual, self.trace.sample_s, self.rules, false, &mut risk);
         risk.retain(|&(_, until)| until > from);
         if let Some(first) = risk.first_mut() {
             first.0 = first.0.max(from);
@@ -135,6 +141,16 @@ impl<'a> PairLife<'a> {
         match self.trace.distance {
             record::DistanceKind::Hull => self.pair().hull_m[k],
             record::DistanceKind::Centre => self.actual.range_m(k),
+        }
+    }
+
+    /// Whether the ships saw one another at sample `k` or before.
+    pub(crate) fn in_sight_by(&self, k: usize) -> bool {
+        match self.trace.visibility {
+            Visibility::InSight => true,
+            Visibility::Restricted { visual_range_m } => {
+                (0..=k.min(self.actual.len() - 1)).any(|j| self.actual.range_m(j) <= visual_range_m)
+            }
         }
     }
 

@@ -15,6 +15,17 @@ use record::ShipTrack;
 /// Samples in which risk is open: from, and the first one after.
 pub(crate) type Interval = (usize, usize);
 
+/// What must be predicted for risk to open: a pass within the profile's distance of risk or, by
+/// radar alone, within its distance of close quarters where that is larger (Rule 19(d): "a
+/// close-quarters situation is developing and/or risk of collision exists").
+pub(crate) fn opening_m(rules: &RuleSet, by_radar: bool) -> f64 {
+    if by_radar {
+        rules.risk.d_risk_m.max(rules.restricted_visibility.close_quarters_m)
+    } else {
+        rules.risk.d_risk_m
+    }
+}
+
 /// Finds the intervals of open risk; kept between traces for its memory.
 #[derive(Debug, Default)]
 pub(crate) struct RiskScanner {
@@ -24,16 +35,18 @@ pub(crate) struct RiskScanner {
 }
 
 impl RiskScanner {
-    /// Intervals of open risk.
+    /// Intervals of open risk; `by_radar` where neither ship sees the other.
     pub(crate) fn scan(
         &mut self,
         pair: &PairTracks<'_>,
         sample_s: f64,
         rules: &RuleSet,
+        by_radar: bool,
         intervals: &mut Vec<Interval>,
     ) {
         intervals.clear();
         let n = pair.len();
+        let within_m = opening_m(rules, by_radar);
         self.mark_turning(pair, sample_s, rules);
         // n samples span n - 1 intervals
         let needed = (rules.risk.persistence_s / sample_s).ceil() as usize + 1;
@@ -42,9 +55,9 @@ impl RiskScanner {
             let held = self.turning.get(k).copied().unwrap_or(false);
             let holds = !held
                 && if open_since.is_some() {
-                    closes(pair, k, rules)
+                    closes(pair, k, within_m, rules)
                 } else {
-                    opens(pair, k, rules)
+                    opens(pair, k, within_m, rules)
                 };
             stretch = if holds { stretch + 1 } else { 0 };
             if stretch == needed {
@@ -82,7 +95,7 @@ fn ever_turns(track: &ShipTrack, limit_radps: f64) -> bool {
     track.yaw_rate_radps.iter().any(|rate| rate.abs() > limit_radps)
 }
 
-fn opens(pair: &PairTracks<'_>, k: usize, rules: &RuleSet) -> bool {
+fn opens(pair: &PairTracks<'_>, k: usize, within_m: f64, rules: &RuleSet) -> bool {
     let (position_m, velocity_mps) = pair.relative(k);
     let tcpa_s = cpa(position_m, velocity_mps).tcpa_s;
     if !tcpa_s.is_some_and(|t| t > 0.0 && t <= rules.risk.t_risk_s) {
@@ -94,14 +107,14 @@ fn opens(pair: &PairTracks<'_>, k: usize, rules: &RuleSet) -> bool {
     let near = range_m < rules.stages.r2_m
         || (range_m < timed_m
             && (rules.stages.mode == StageMode::Time || is_overtaking(pair, k, rules)));
-    near && pair.dcpa_below(k, rules.risk.d_risk_m)
+    near && pair.dcpa_below(k, within_m)
 }
 
-fn closes(pair: &PairTracks<'_>, k: usize, rules: &RuleSet) -> bool {
+fn closes(pair: &PairTracks<'_>, k: usize, within_m: f64, rules: &RuleSet) -> bool {
     let (position_m, velocity_mps) = pair.relative(k);
     let behind = cpa(position_m, velocity_mps).tcpa_s.is_some_and(|t| t < 0.0);
     let growing = position_m.dot(&velocity_mps) > 0.0;
-    (behind && growing) || !pair.dcpa_below(k, rules.risk.close_factor * rules.risk.d_risk_m)
+    (behind && growing) || !pair.dcpa_below(k, rules.risk.close_factor * within_m)
 }
 
 fn is_overtaking(pair: &PairTracks<'_>, k: usize, rules: &RuleSet) -> bool {
@@ -127,7 +140,7 @@ mod tests {
         let (own, target) = (own.track(), target.track());
         let pair = PairTracks::new(&own, &target, DistanceKind::Centre);
         let mut found = Vec::new();
-        RiskScanner::default().scan(&pair, 1.0, &rules(), &mut found);
+        RiskScanner::default().scan(&pair, 1.0, &rules(), false, &mut found);
         found
     }
 

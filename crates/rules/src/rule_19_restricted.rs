@@ -35,7 +35,7 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .action
         .runs
         .iter()
-        .filter(|run| out_of_sight(case, run.start))
+        .filter(|run| !case.life.in_sight_by(run.start))
         .filter_map(|run| wrong_turn(case, run))
         .chain(keeps_way_on(case))
         .reduce(|a, b| if b.status.severity() > a.status.severity() { b } else { a });
@@ -71,15 +71,6 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .done()
 }
 
-pub(crate) fn out_of_sight(case: &Case<'_>, k: usize) -> bool {
-    match case.life.trace.visibility {
-        record::Visibility::InSight => false,
-        record::Visibility::Restricted { visual_range_m } => {
-            (0..=k).all(|j| case.life.actual.range_m(j) > visual_range_m)
-        }
-    }
-}
-
 /// 19(d)(i) and (ii).
 fn wrong_turn(case: &Case<'_>, run: &TurnRun) -> Option<Finding> {
     let beta_rad = crate::risk::relative(&case.life.actual, run.start).beta_rad;
@@ -112,7 +103,7 @@ fn keeps_way_on(case: &Case<'_>) -> Option<Finding> {
     let steerage_mps = (life.actual.own.ship.steerage_mps)
         .unwrap_or(rules.steerage_fraction * life.trace.cruise_mps);
     let k = (case.onset.k..=case.end()).find(|&k| {
-        life.distance_at_m(k) < within_m && life.actual.closing(k) && out_of_sight(case, k)
+        life.distance_at_m(k) < within_m && life.actual.closing(k) && !life.in_sight_by(k)
     })?;
     let beta_rad = crate::risk::relative(&life.actual, k).beta_rad;
     let slow = case.own.speed_mps[k] <= steerage_mps;

@@ -10,7 +10,6 @@
 
 use crate::case::Case;
 use crate::rule_06_safe_speed::without_model;
-use crate::rule_19_restricted::out_of_sight;
 use crate::ruling::{Ruling, not_applicable};
 use record::{Check, Status, Verdict, Visibility};
 
@@ -26,7 +25,7 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
     };
     let speeds_mps = &case.life.actual.own.stw_mps;
     let begin = case.onset.k.min(case.end());
-    let unseen = (begin..=case.end()).take_while(|&k| out_of_sight(case, k));
+    let unseen = (begin..=case.end()).take_while(|&k| !case.life.in_sight_by(k));
     let Some(k) = unseen.max_by(|&a, &b| speeds_mps[a].total_cmp(&speeds_mps[b])) else {
         return not_applicable(case, Check::R19Speed);
     };

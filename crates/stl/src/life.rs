@@ -80,26 +80,22 @@ fn life<'a>(trace: &'a Trace, target: usize, params: &Params) -> Life<'a> {
     let actual = PairSignals::new(&trace.own, &trace.targets[target], trace.distance);
     let nominal = trace.nominal.as_ref().and_then(|n| Some((&n.own, n.targets.get(target)?)));
     let (cpa, cpa_passed) = closest(trace, target, &actual);
-    let own_risk = risk_open(&actual, params, sample_s, None);
-    let (attention, first) = match nominal {
-        Some((own, other)) => {
-            let planned = PairSignals::new(own, other, trace.distance);
-            let open = risk_open(&planned, params, sample_s, None);
-            let first =
-                open.first().map(|o| (o.start, at_onset(&planned, own, other, params, o.start)));
-            (open, first)
-        }
-        None => {
-            let (own, other) = (&trace.own, &trace.targets[target]);
-            let first =
-                own_risk.first().map(|o| (o.start, at_onset(&actual, own, other, params, o.start)));
-            (own_risk.clone(), first)
-        }
-    };
+    let own_risk = risk_open(&actual, params, params.risk_distance_m, sample_s, None);
+    let (own, other) = nominal.unwrap_or((&trace.own, &trace.targets[target]));
+    let judged = nominal.map(|(own, other)| PairSignals::new(own, other, trace.distance));
+    let judged = judged.as_ref().unwrap_or(&actual);
+    let open_within = |within_m: f64| risk_open(judged, params, within_m, sample_s, None);
+    let seen = sighted(trace.visibility, &actual);
+    // what a radar alone shows to come closer than close quarters binds too, until she is seen
+    let close_m = params.risk_distance_m.max(params.close_quarters_m);
+    let by_radar = (seen != Some(0))
+        .then(|| open_within(close_m))
+        .filter(|open| open.first().is_some_and(|o| seen.is_none_or(|k| k > o.start)));
+    let attention = by_radar.unwrap_or_else(|| open_within(params.risk_distance_m));
+    let first = attention.first().map(|o| (o.start, at_onset(judged, own, other, params, o.start)));
     let mut life = Life { actual, cpa, cpa_passed, attention, by_radar: None, in_sight: None };
     let tracked = trace.pairs[target].tracked_s.map_or(0, |t| samples_of(t, sample_s));
     let first = first.filter(|(onset, _)| *onset <= cpa);
-    let seen = sighted(trace.visibility, &life.actual);
     if let Some((onset, start)) = first {
         let clock = Clock {
             onset,
@@ -188,7 +184,7 @@ fn duty(
     params: &Params,
 ) -> Duty {
     let Clock { onset, begin, end, complete, never_opened, reference } = clock;
-    let open = risk_open(actual, params, trace.sample_s, Some(onset));
+    let open = risk_open(actual, params, params.risk_distance_m, trace.sample_s, Some(onset));
     let by_time = params.stage_clock == StageClock::Time
         || matches!(start.class, EncounterClass::Overtaking | EncounterClass::Overtaken);
     let stages = [0, 1, 2].map(|stage| {

@@ -15,6 +15,8 @@ pub enum StageClock {
 pub struct Params {
     /// `D_risk`: predicted distance under which risk opens.
     pub risk_distance_m: f64,
+    /// `D_cq`: by radar alone a pass predicted within this opens the duty of Rule 19(d) too.
+    pub close_quarters_m: f64,
     /// `T_risk`: longest time to the closest point at which risk opens.
     pub risk_tcpa_s: f64,
     /// How long the condition of risk, or of its end, must last.

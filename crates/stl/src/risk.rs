@@ -11,10 +11,12 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 /// Samples at which risk is open, as half-open ranges. `forced` opens it at that sample at the
-/// latest: the onset on the nominal track binds whatever own ship has done since.
+/// latest: the onset on the nominal track binds whatever own ship has done since. `within_m` is the
+/// predicted distance that opens it.
 pub fn risk_open(
     pair: &PairSignals<'_>,
     params: &Params,
+    within_m: f64,
     sample_s: f64,
     forced: Option<usize>,
 ) -> Vec<Range<usize>> {
@@ -31,7 +33,11 @@ pub fn risk_open(
             streak = 0;
         }
         let wanted = steady(k)
-            && if from.is_some() { closes(pair, params, k) } else { opens(pair, params, k) };
+            && if from.is_some() {
+                closes(pair, params, within_m, k)
+            } else {
+                opens(pair, params, within_m, k)
+            };
         streak = if wanted { streak + 1 } else { 0 };
         if streak <= hold {
             continue;
@@ -61,17 +67,17 @@ fn unsteady(ship: &ShipTrack, params: &Params, sample_s: f64) -> Vec<bool> {
     smooth.iter().map(turns).collect()
 }
 
-fn opens(pair: &PairSignals<'_>, params: &Params, k: usize) -> bool {
+fn opens(pair: &PairSignals<'_>, params: &Params, within_m: f64, k: usize) -> bool {
     let tcpa_s = pair.tcpa_s[k];
     tcpa_s > 0.0
         && tcpa_s <= params.risk_tcpa_s
         && inside_stage_2(pair, params, k)
-        && pair.predicted_within(k, params.risk_distance_m)
+        && pair.predicted_within(k, within_m)
 }
 
-fn closes(pair: &PairSignals<'_>, params: &Params, k: usize) -> bool {
+fn closes(pair: &PairSignals<'_>, params: &Params, within_m: f64, k: usize) -> bool {
     let receding = pair.tcpa_s[k] < 0.0 && pair.range_rate_mps[k] > 0.0;
-    receding || !pair.predicted_within(k, params.risk_close_factor * params.risk_distance_m)
+    receding || !pair.predicted_within(k, params.risk_close_factor * within_m)
 }
 
 /// Before the class is locked, the limit is that of the role the ships would have now.

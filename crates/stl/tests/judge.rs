@@ -237,6 +237,23 @@ fn by_radar_alone_not_to_port() {
     expect(&fog(&own().turn(20, -30.0), astern), Check::R19, Finding::Holds);
 }
 
+/// A pass at 300 m is no risk, but by radar alone it is close quarters where these begin at 400 m.
+#[test]
+fn by_radar_alone_close_quarters_bind() {
+    let wide = Script::straight(1200.0, 300.0, 180.0, 5.0);
+    let mut trace = run(&own().turn(20, -30.0), &[wide], 300);
+    let found = |trace: &Trace, close_quarters_m: f64| {
+        let found = judge(trace, &stl::Params { close_quarters_m, ..USV });
+        found.iter().find(|r| r.check == Check::R19).map(|r| r.status)
+    };
+    assert_eq!(found(&trace, 400.0), Some(Finding::NotApplicable));
+    trace.visibility = Visibility::Restricted { visual_range_m: 50.0 };
+    assert_eq!(found(&trace, 400.0), Some(Finding::Violated));
+    assert_eq!(found(&trace, 200.0), Some(Finding::NotApplicable));
+    trace.visibility = Visibility::Restricted { visual_range_m: 2000.0 };
+    assert_eq!(found(&trace, 400.0), Some(Finding::NotApplicable));
+}
+
 #[test]
 fn on_coming_in_sight_the_rules_change() {
     let mut trace = run(&own().turn(115, -40.0), &[ahead()], 300);

@@ -37,6 +37,33 @@ fn in_fog_to_port_for_a_ship_ahead_fails() {
     expect(&wide(-10.3), Check::R19, Fail, "FAIL-19D-I");
 }
 
+/// Close quarters at 400 m: a pass at 300 m is no risk in sight of one another (200 m), but by radar
+/// alone 19(d) asks for action in ample time, and forbids port.
+#[test]
+fn in_fog_close_quarters_open_the_duty() {
+    let passes = |visual_range_m: Option<f64>, turn_deg: f64| {
+        let own = own(6.0).hold(60.0).turn(turn_deg, 3.0).hold(500.0);
+        let mut scene = Scene::new(own, target(2400.0, 300.0, 180.0, 6.0));
+        if let Some(visual_range_m) = visual_range_m {
+            scene.visibility = Visibility::Restricted { visual_range_m };
+        }
+        judge_by(with("close_quarters_m", 400.0), &scene.trace())
+    };
+    let to_port = passes(Some(50.0), -40.0);
+    expect(&to_port, Check::R19, Fail, "FAIL-19D-I");
+    expect(&passes(Some(50.0), 40.0), Check::R19, Pass, "");
+    expect(&passes(Some(50.0), 15.0), Check::R8Magnitude, Fail, "FAIL-8-NOT-APPARENT");
+    // in sight, and seen before the range of stage 2, the risk of Rule 7 alone opens anything
+    for sight in [None, Some(2200.0)] {
+        let seen = passes(sight, -40.0);
+        assert_eq!(seen.pairs[0].risk_s, None);
+        expect(&seen, Check::R19, NotApplicable, "");
+    }
+    // a larger distance of risk is not narrowed by close quarters
+    let kept = fog(Scene::new(own(6.0).hold(400.0), target(2400.0, 180.0, 180.0, 6.0)), 20.0);
+    assert!(kept.pairs[0].risk_s.is_some());
+}
+
 #[test]
 fn in_fog_towards_a_ship_abaft_the_beam_fails() {
     let astern = || target(-1100.0, 1000.0, -30.0, 8.0);

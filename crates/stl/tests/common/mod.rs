@@ -11,6 +11,7 @@ use stl::{Params, RunParams, Scales, StageClock};
 /// The thresholds of the profile `usv-oe2023` and the defaults of the specification.
 pub(crate) const USV: Params = Params {
     risk_distance_m: 200.0,
+    close_quarters_m: 200.0,
     risk_tcpa_s: 600.0,
     risk_hold_s: 3.0,
     risk_close_factor: 1.2,
