@@ -51,6 +51,22 @@ fn main() -> Result<(), Error> {
             let (check, status) = (v.check.name(), v.status.name());
             println!("  {check} {status} {} {:?}; {}", v.detail, v.t_s, numbers.join(", "));
         }
+        let lives = stl::life::lives(&run.trace, &second);
+        let deviation = stl::action::Deviation::of(&run.trace, &second);
+        for (target, life) in lives.iter().enumerate() {
+            for duty in life.in_sight.iter().chain(&life.by_radar) {
+                let sample_s = run.trace.sample_s;
+                let did =
+                    stl::action::Action::of(&deviation, &lives, target, duty, &second, sample_s);
+                println!(
+                    "  second, target {target}: tracked {:?}, begin {}, onset {}, may act {:?}",
+                    run.trace.pairs[target].tracked_s, duty.begin, duty.onset, duty.may_act
+                );
+                println!("  {:?} back {:?} from {}", did.counted, did.returns, did.from);
+                println!("  {:?}", did.turns);
+                println!("  {:?}", did.speed_changes);
+            }
+        }
         for said in stl::judge(&run.trace, &second) {
             if said.status == stl::Finding::NotEvaluated {
                 continue;

@@ -144,9 +144,14 @@ impl Action {
         let first = self.runs.first().copied();
         let goes_back = |run: &TurnRun| {
             first.is_some_and(|first| {
-                let beyond_rad = own.smooth_rad[run.end] - own.smooth_rad[first.edge];
-                let overshoots = beyond_rad * run.size_rad.signum() >= m.substantial_turn_rad;
-                returns_from(life, &first, run) && !overshoots
+                let off_rad = |k: usize, side: f64| {
+                    (own.smooth_rad[k] - own.smooth_rad[first.edge]) * side.signum()
+                };
+                // past the first course it is an action, unless it leads back from a real one: the
+                // way back to the line of the route goes past its course
+                let past = off_rad(run.end, run.size_rad) >= m.substantial_turn_rad;
+                let acted = off_rad(run.edge, first.size_rad) >= m.substantial_turn_rad;
+                returns_from(life, &first, run) && (!past || acted)
             })
         };
         let acts = |run: &&TurnRun| run.size_rad.abs() >= m.substantial_turn_rad && !goes_back(run);

@@ -82,7 +82,7 @@ impl<'a> Case<'a> {
 
     /// Whether the turn that counts was begun before risk opened.
     pub(crate) fn turned_early(&self) -> bool {
-        self.action.turn_seen_s.is_some_and(|t_s| t_s < self.onset_s())
+        self.action.turn.is_some_and(|turn| turn.start < self.onset.k)
     }
 
     /// The last instant at which own ship alone could still clear, seconds. Absent where she never
@@ -237,13 +237,13 @@ impl<'a> Case<'a> {
             || (target.sog_mps(to) - speed_mps).abs() >= m.detectable_speed_fraction * speed_mps
     }
 
-    /// Finally past and clear (13(d) has no number): held for a while after the closest point.
+    /// Finally past and clear (13(d) has no number): held for a while, first after the onset. What
+    /// comes after it is another encounter, even where the ships then meet closer.
     fn find_release(&self) -> Option<f64> {
         let r = &self.rules().release;
         let needed = (r.held_s / self.life.trace.sample_s).ceil() as usize + 1;
         let mut stretch = 0;
-        let first = self.life.passed?.k.max(self.onset.k);
-        for k in first..self.life.actual.len() {
+        for k in self.onset.k..self.life.actual.len() {
             stretch = if self.clear_at(k) { stretch + 1 } else { 0 };
             if stretch == needed {
                 return Some(self.life.time_s(k));

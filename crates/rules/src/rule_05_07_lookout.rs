@@ -29,15 +29,16 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         Some(_) => (Status::Pass, ""),
     };
     let latency_s = alert_s.map(|t_s| (t_s - case.clock_s()).max(0.0));
+    let told_s = alert_s.or(deadline_s).unwrap_or(case.onset_s());
     nothing(life, status)
         .detail(detail)
         .margin_if(deadline_s.zip(alert_s).map(|(deadline_s, t_s)| deadline_s - t_s))
-        .at(alert_s)
+        .at(told_s)
         .seconds("t_alert_latency", latency_s)
         .seconds("t_trk", tracked_s)
         .share("false_alerts", false_alerts(life) as f64)
         .say(|| {
-            let when = case.when(alert_s.or(deadline_s).unwrap_or(case.onset_s()));
+            let when = case.when(told_s);
             match detail {
                 "MISSED-ALERT" => {
                     format!("{when}, own ship had not declared the risk in time. Rule 7.")

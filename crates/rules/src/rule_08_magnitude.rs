@@ -26,17 +26,19 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         Status::Fail if !case.complete() => Status::Inconclusive,
         other => other,
     };
+    let seen_s = action.detectable_s.unwrap_or(case.onset_s());
+    let t_s = action.apparent_s.filter(|_| status == Status::Pass).unwrap_or(seen_s);
     Ruling::new(Check::R8Magnitude, case.life.target, status)
         .detail(detail)
         .margin_if(margin_rad(case, status))
         .score(score::apparent_action(case))
-        .at(action.apparent_s.or(action.detectable_s))
+        .at(t_s)
         .radians("x_psi", action.x_act_rad)
         .share("x_u", action.x_u)
         .radians("apparent_turn", m.apparent_turn_rad)
         .share("apparent_speed_fraction", m.apparent_speed_fraction)
         .say(|| {
-            let when = case.when(action.detectable_s.unwrap_or(case.onset_s()));
+            let when = case.when(t_s);
             let turn = geom::units::to_deg(action.x_act_rad);
             let cut = 100.0 * action.x_u;
             if action.detectable() {

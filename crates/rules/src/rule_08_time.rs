@@ -27,7 +27,7 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .detail(detail)
         .margin_if(margin_s(case, status))
         .score(score::promptness(case))
-        .at(acted_s)
+        .at(acted_s.unwrap_or(case.onset_s()))
         .seconds("t_risk", case.onset_s())
         .seconds("t_man", acted_s)
         .seconds("t_react", reaction_s)

@@ -36,11 +36,13 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .detail(detail)
         .margin(crossing.map_or(case.life.distance_m(), |crossing| crossing.ahead_m - r_pref_m))
         .score(score::crossing(case))
-        .at(crossing.map(|crossing| crossing.t_s).or(t_s))
+        .at(t_s.or(crossing.map(|crossing| crossing.t_s)))
         .metres("r_pref", r_pref_m)
         .radians("turn", turn_rad.unwrap_or(0.0));
     let ruling = match crossing {
-        Some(crossing) => ruling.metres("ahead_of_bow", crossing.ahead_m),
+        Some(crossing) => {
+            ruling.metres("ahead_of_bow", crossing.ahead_m).seconds("t_crossed", crossing.t_s)
+        }
         None => ruling,
     };
     ruling.say(|| sentence(case, crossing.map(|c| (c.t_s, c.ahead_m)), turn_rad.zip(t_s))).done()

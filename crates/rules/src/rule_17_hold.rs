@@ -32,7 +32,8 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
     let m = &case.rules().manoeuvre;
     // 17(b) ends the duty, from stage 4 on or from when the other alone can no longer avoid
     let shall_act = case.target_helpless_s().map(|t_s| case.life.sample(t_s));
-    let until = [case.may_act, shall_act, case.stages[2], Some(case.end())];
+    let until = [case.may_act, shall_act, case.stages[2], Some(case.end() + 1)];
+    // the first sample at which she is free: what she does from then on is by right
     let end = until.into_iter().flatten().min().unwrap_or(begin);
     if end <= begin {
         return not_applicable(case, Check::R17Hold);
@@ -81,11 +82,14 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .done()
 }
 
-/// Largest held departures in samples `begin..=end`: of the mean heading from its mean before
+/// Largest held departures in samples `begin..end`: of the mean heading from its mean before
 /// `begin`, of the speed from that at `begin`.
 fn departure(case: &Case<'_>, begin: usize, end: usize) -> Departure {
     let (own, m) = (case.own, &case.rules().manoeuvre);
     let mut worst = Departure { k: begin, ..Departure::default() };
+    if end <= begin {
+        return worst;
+    }
     let means_rad = mean_departures_rad(case, begin, end);
     let held = (m.offset_held_s / case.life.trace.sample_s).ceil() as usize;
     for (k, window) in means_rad.windows(held + 1).enumerate() {
@@ -99,23 +103,24 @@ fn departure(case: &Case<'_>, begin: usize, end: usize) -> Departure {
         }
     }
     let (level_mps, u_0_mps) = (own.departure_mps[begin], own.speed_mps[begin]);
-    worst.share = speed_share(case, begin..end + 1, level_mps, u_0_mps);
+    worst.share = speed_share(case, begin..end, level_mps, u_0_mps);
     worst
 }
 
 /// How far the centred mean of the heading lies from its mean before `begin`, at each sample of
-/// `begin..=end`. No mean looks past `end`: what she does from then on is by right.
+/// `begin..end`. No mean looks at `end` or past it.
 fn mean_departures_rad(case: &Case<'_>, begin: usize, end: usize) -> Vec<f64> {
     let heading_rad = &case.own.heading_rad;
     let mean_s = case.rules().stand_on.heading_mean_s;
     let half = (mean_s / 2.0 / case.life.trace.sample_s).round() as usize;
     let before = &heading_rad[begin.saturating_sub(2 * half)..begin.max(1)];
     let psi_0_rad = before.iter().sum::<f64>() / before.len() as f64;
+    let last = end - 1;
     // a running sum over the window
-    let window = |k: usize| (k.saturating_sub(half), (k + half).min(end));
+    let window = |k: usize| (k.saturating_sub(half), (k + half).min(last));
     let (mut from, mut to) = window(begin);
     let mut sum: f64 = heading_rad[from..=to].iter().map(|psi| psi - psi_0_rad).sum();
-    (begin..=end)
+    (begin..=last)
         .map(|k| {
             let (next_from, next_to) = window(k);
             while from < next_from {

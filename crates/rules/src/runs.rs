@@ -20,7 +20,8 @@ pub(crate) struct TurnRun {
     pub(crate) end: usize,
     /// Last quiet sample of the smoothed rate before it: what was before the run is before this.
     pub(crate) edge: usize,
-    /// Net change, radians, starboard positive.
+    /// Net change of the heading itself from `start` to `end`, radians, starboard positive: smoothing
+    /// takes degrees off a turn that is followed at once by its return.
     pub(crate) size_rad: f64,
 }
 
@@ -58,6 +59,7 @@ pub(crate) fn turn_runs(
     runs.retain(|run| run.size_rad.abs() >= m.detectable_turn_rad);
     for run in runs {
         run.start = begun(&own.heading_rad, run, m.detectable_turn_rad);
+        run.size_rad = own.heading_rad[run.end] - own.heading_rad[run.start];
     }
 }
 
@@ -133,7 +135,7 @@ impl Segmenter<'_> {
                 {
                     before.end = run.end;
                     before.size_rad =
-                        self.own.smooth_rad[run.end] - self.own.smooth_rad[before.edge];
+                        self.own.heading_rad[run.end] - self.own.heading_rad[before.start];
                 }
                 _ => runs.push(run),
             }
@@ -163,7 +165,7 @@ impl Segmenter<'_> {
                 break;
             }
         }
-        let size_rad = self.own.smooth_rad[end] - self.own.smooth_rad[edge];
+        let size_rad = self.own.heading_rad[end] - self.own.heading_rad[start];
         TurnRun { start, end, edge, size_rad }
     }
 }
@@ -250,14 +252,14 @@ mod tests {
         assert_eq!(runs_of(script).len(), 5);
     }
 
-    /// The size is that of the smoothed heading: an immediate return takes the rate times
-    /// sigma times sqrt(2 / pi) off the peak, here 4.8 degrees.
+    /// The size is that of the heading: in the smoothed one an immediate return takes the rate
+    /// times sigma times sqrt(2 / pi) off the peak, here 4.8 degrees.
     #[test]
     fn a_turn_and_its_return_are_two_runs() {
         let runs = runs_of(start().turn(30.0, 3.0).turn(-30.0, 3.0).hold(60.0));
         assert_eq!(runs.len(), 2, "{runs:?}");
-        assert!((to_deg(runs[0].size_rad) - 25.2).abs() < 1.0, "{runs:?}");
-        assert!((to_deg(runs[1].size_rad) + 25.2).abs() < 1.0, "{runs:?}");
+        assert!((to_deg(runs[0].size_rad) - 30.0).abs() < 1.0, "{runs:?}");
+        assert!((to_deg(runs[1].size_rad) + 30.0).abs() < 1.0, "{runs:?}");
     }
 
     /// The smoothed rate rises two to three seconds before a brisk turn does.

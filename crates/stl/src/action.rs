@@ -48,7 +48,7 @@ impl Deviation {
         let yaw_rate_on =
             (trace.own.ship.yaw_rate_radps_max / 2.0).min(params.run.yaw_rate_on_radps);
         let turns = heading_runs(&heading_rad, &speed_mps, yaw_rate_on, params, trace.sample_s);
-        let speed_changes = speed_runs(&speed_change_mps, params, trace.sample_s);
+        let speed_changes = speed_runs(&speed_change_mps, &speed_mps, params, trace.sample_s);
         let planned = nominal.is_some();
         Self { heading_rad, planned, speed_mps, speed_change_mps, turns, speed_changes }
     }
@@ -120,11 +120,13 @@ impl Action {
                 && run.start > action.start
                 && settled(&lives[target], run.start, params)
         };
-        // A turn back to the route is no action, however large (section 5), unless it goes on to be
-        // an alteration to the other side of what she held first.
+        // A turn back to the route is no action, however large (section 5), unless there was little
+        // to turn back from and it is an alteration to the other side of what she held first.
         let crosses = |first: &Run, run: &Run| {
-            let past = deviation.heading_rad[run.end] - deviation.heading_rad[first.start];
-            past * run.change.signum() >= params.turn_action_rad
+            let from_first =
+                |k: usize| deviation.heading_rad[k] - deviation.heading_rad[first.start];
+            let past = from_first(run.end) * run.change.signum() >= params.turn_action_rad;
+            past && from_first(run.start) * first.change.signum() < params.turn_action_rad
         };
         let way_back = |run: &Run| {
             turns.first().is_some_and(|first| back_from(first, run) && !crosses(first, run))

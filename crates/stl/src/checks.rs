@@ -2,7 +2,6 @@
 
 use crate::action::{Action, Deviation};
 use crate::formula::{Formula, Signals};
-use crate::judge::Finding;
 use crate::life::{Duty, Life};
 use crate::params::Params;
 use crate::phi::{self, column as c};
@@ -42,8 +41,7 @@ pub struct Case<'a> {
     pub(crate) hold: usize,
     in_sight: Option<(&'a Duty, Action)>,
     by_radar: Option<(&'a Duty, Action)>,
-    holds_breached: bool,
-    safe: Option<Finding>,
+    breached: bool,
 }
 
 impl<'a> Case<'a> {
@@ -66,20 +64,13 @@ impl<'a> Case<'a> {
             hold: samples_of(params.offset_hold_s, trace.sample_s),
             in_sight: life.in_sight.as_ref().map(|duty| (duty, act(duty))),
             by_radar: life.by_radar.as_ref().map(|duty| (duty, act(duty))),
-            holds_breached: false,
-            safe: None,
+            breached: false,
         }
     }
 
     /// What a later check needs to know of an earlier one.
-    pub fn remember(&mut self, check: Check, status: Finding) {
-        match check {
-            Check::R17Hold | Check::R17Port => {
-                self.holds_breached |= status == Finding::Violated;
-            }
-            Check::Safe => self.safe = Some(status),
-            _ => {}
-        }
+    pub fn remember(&mut self, check: Check, status: crate::Finding) {
+        self.breached |= check != Check::Safe && status == crate::Finding::Violated;
     }
 
     /// The formula of a check, where there is one.
@@ -110,7 +101,7 @@ impl<'a> Case<'a> {
     /// Own ship acted before there was any risk, and there never was: nothing is left to break.
     fn unless_settled(&self, claim: Claim, duty: &Duty, action: &Action) -> Claim {
         let in_sight = self.by_radar.is_none() && self.trace.nominal.is_some();
-        let settled = in_sight && duty.never_opened && self.seen_before(duty.onset, action);
+        let settled = in_sight && duty.never_opened && self.seen_before(duty.onset + 1, action);
         match claim {
             Claim::Formula { formula, signals, complete } if settled => Claim::Formula {
                 formula: phi::unless_settled(formula),
@@ -161,13 +152,16 @@ impl<'a> Case<'a> {
         distance_m
     }
 
-    fn with_distance(&self, signals: Signals) -> Signals {
-        let pair = &self.trace.pairs[self.target];
-        let touched = self.trace.contact.is_some_and(|contact| {
+    fn touched(&self) -> bool {
+        let contact = self.trace.contact.is_some_and(|contact| {
             let own = |target: u8| usize::from(target) == self.target;
             matches!(contact.with, record::ContactWith::Target(target) if own(target))
         });
-        let touched = touched || pair.minimum.hull_m <= 0.0;
+        contact || self.trace.pairs[self.target].minimum.hull_m <= 0.0
+    }
+
+    fn with_distance(&self, signals: Signals) -> Signals {
+        let touched = self.touched();
         let contact = self.flags(|_| touched);
         signals.with(c::DISTANCE_M, self.distances()).with(c::CONTACT, contact)
     }
@@ -177,9 +171,8 @@ impl<'a> Case<'a> {
         let life = self.life();
         let stands_on =
             self.in_sight.as_ref().filter(|(duty, _)| duty.stands_on() && !duty.own_stopped);
-        let blameless = stands_on.is_some_and(|(duty, action)| {
-            !self.holds_breached && !self.shall_act_breached(duty, action)
-        });
+        let blameless = stands_on
+            .is_some_and(|(duty, action)| !self.breached && !self.shall_act_breached(duty, action));
         let p = self.params;
         let limit_m = if blameless { p.near_miss_m } else { p.minimum_m };
         Claim::Formula {
@@ -208,16 +201,20 @@ impl<'a> Case<'a> {
     fn apparent(&self, duty: &Duty, own: &Action) -> Claim {
         let p = self.params;
         let radar = self.by_radar.is_some();
-        if !radar && duty.stands_on() {
-            let idle = own.turns.is_empty() && own.speed_changes.is_empty();
-            return if idle { Claim::NotApplicable } else { Claim::NotEvaluated };
+        // a ship that stands on is asked for size once she acts from the moment at which she may:
+        // what can be seen at that sample was made before it
+        let by_right = duty.may_act.is_some_and(|may| {
+            !self.seen_before(may + 1, own) && self.seen_before(duty.end + 1, own)
+        });
+        if !radar && duty.stands_on() && !by_right {
+            return Claim::NotApplicable;
         }
         let over = own.returns.unwrap_or(usize::MAX);
         let action = own.turn_rad.iter().map(|turn| own.side * turn).collect();
         let passed_m = self.trace.pairs[self.target].minimum.of(self.trace.distance).0;
         let planned = self.trace.nominal.as_ref().and_then(|n| n.minima.get(self.target));
         let gained = planned.is_none_or(|m| passed_m > m.of(self.trace.distance).0);
-        let small_did = self.safe == Some(Finding::Holds) && gained && passed_m >= p.minimum_m;
+        let small_did = !self.touched() && gained && passed_m >= p.minimum_m;
         // By radar there is no allowance for what an eye would see.
         let turn_rad = if radar { p.turn_apparent_rad } else { p.turn_action_rad };
         Claim::Formula {
@@ -252,15 +249,15 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Whether an alteration that could be seen, and was held, was made before sample `onset`.
-    fn seen_before(&self, onset: usize, action: &Action) -> bool {
+    /// Whether an alteration that can be seen in a sample before `end` was held. What is seen in one
+    /// was made before it.
+    fn seen_before(&self, end: usize, action: &Action) -> bool {
         let last = action.turn_rad.len().saturating_sub(self.hold + 1);
         let held = |values: &[f64], side: f64, least: f64| {
             let seen = |x: &f64| side * x >= least;
             // a run that ended sooner than that holds nothing
             let window = |k: usize| values.get(k..=k + self.hold);
-            (action.from..onset.min(last + 1))
-                .any(|k| window(k).is_some_and(|w| w.iter().all(seen)))
+            (action.from + 1..end.min(last + 1)).any(|k| window(k).is_some_and(|w| w.iter().all(seen)))
         };
         let p = self.params;
         [1.0, -1.0].into_iter().any(|side| {

@@ -47,8 +47,8 @@ pub enum Finding {
 pub const WITH_FORMULA: [Check; 8] = [
     Check::R17Hold,
     Check::R17Port,
-    Check::Safe,
     Check::R8Magnitude,
+    Check::Safe,
     Check::R13,
     Check::R14,
     Check::R15,

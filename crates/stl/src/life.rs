@@ -94,7 +94,8 @@ fn life<'a>(trace: &'a Trace, target: usize, params: &Params) -> Life<'a> {
     let attention = by_radar.unwrap_or_else(|| open_within(params.risk_distance_m));
     let first = attention.first().map(|o| (o.start, at_onset(judged, own, other, params, o.start)));
     let mut life = Life { actual, cpa, cpa_passed, attention, by_radar: None, in_sight: None };
-    let tracked = trace.pairs[target].tracked_s.map_or(0, |t| samples_of(t, sample_s));
+    // a run begins after its first sample: one begun in the second of detection is her action
+    let tracked = trace.pairs[target].tracked_s.map_or(0, |t| (t / sample_s) as usize);
     let first = first.filter(|(onset, _)| *onset <= cpa);
     if let Some((onset, start)) = first {
         let clock = Clock {

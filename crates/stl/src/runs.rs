@@ -50,6 +50,7 @@ pub fn heading_runs(
     for run in &mut all {
         let from = run.start.saturating_sub(blur).max(before).min(run.start);
         run.start = last_unturned(&heading_rad[from..=run.end], run, params) + from;
+        run.change = heading_rad[run.end] - heading_rad[run.start];
         before = run.end;
     }
     all
@@ -72,29 +73,30 @@ fn last_unturned(heading_rad: &[f64], run: &Run, params: &Params) -> usize {
     at
 }
 
-/// Runs of the speed: contiguous samples at which it changes by `acceleration_mps2` or more, and
-/// by a detectable share in all.
-pub fn speed_runs(speed_mps: &[f64], params: &Params, sample_s: f64) -> Vec<Run> {
-    let rate = derivative(speed_mps, sample_s);
+/// Runs of the speed: contiguous intervals between samples in which it changes by
+/// `acceleration_mps2` or more, and by a detectable share of the speed in all. A mean over two
+/// intervals would halve a change made in one. `change_mps` is what is left of the speed when the
+/// plan's is taken off.
+pub fn speed_runs(
+    change_mps: &[f64],
+    speed_mps: &[f64],
+    params: &Params,
+    sample_s: f64,
+) -> Vec<Run> {
+    let rates: Vec<f64> = change_mps.windows(2).map(|u| (u[1] - u[0]) / sample_s).collect();
+    let side = |rate: &f64| {
+        if rate.abs() < params.run.acceleration_mps2 { 0.0 } else { rate.signum() }
+    };
     let mut runs: Vec<Run> = Vec::new();
-    let mut k = 0;
-    while k < rate.len() {
-        if rate[k].abs() < params.run.acceleration_mps2 {
-            k += 1;
-            continue;
+    let mut start = 0;
+    for stretch in rates.chunk_by(|a, b| side(a).total_cmp(&side(b)).is_eq()) {
+        let end = start + stretch.len();
+        let change = change_mps[end] - change_mps[start];
+        let seen = change.abs() >= params.speed_detectable * speed_mps[start];
+        if side(&stretch[0]).abs() > 0.0 && seen {
+            runs.push(Run { start, end, change });
         }
-        let start = k;
-        while k + 1 < rate.len()
-            && rate[k + 1].abs() >= params.run.acceleration_mps2
-            && rate[k + 1] * rate[start] > 0.0
-        {
-            k += 1;
-        }
-        let change = speed_mps[k] - speed_mps[start];
-        if change.abs() >= params.speed_detectable * speed_mps[start].abs() && k > start {
-            runs.push(Run { start, end: k, change });
-        }
-        k += 1;
+        start = end;
     }
     runs
 }

@@ -22,7 +22,9 @@ impl Case<'_> {
         }
         let speed_0 = self.deviation.speed_mps[from];
         let change_0 = self.deviation.speed_change_mps[from];
-        let change = |v: &f64| if speed_0 > 0.0 { (v - change_0).abs() / speed_0 } else { 0.0 };
+        // a share of next to no speed says nothing of what she does with it
+        let moving = speed_0 >= p.run.moving_mps;
+        let change = |v: &f64| if moving { (v - change_0).abs() / speed_0 } else { 0.0 };
         let changes = self.deviation.speed_change_mps.iter().map(change).collect();
         let made = |k: usize| k.checked_sub(self.hold).is_some_and(bound);
         let signals = self

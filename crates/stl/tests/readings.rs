@@ -6,6 +6,7 @@ mod common;
 use common::{Script, USV, run};
 use record::{Check, Trace};
 use stl::life::lives;
+use stl::runs::speed_runs;
 use stl::{Finding, Robustness, judge};
 
 fn own() -> Script {
@@ -100,6 +101,64 @@ fn exactly_at_the_limit_is_undecided() {
     trace.pairs[0].minimum.hull_m = USV.minimum_m;
     let found = finding(&trace, Check::Safe);
     assert_eq!((found.status, found.rho), (Finding::Undecided, Some(0.0)));
+}
+
+/// A speed run is contiguous from sample to sample, and detectable as a share of the speed that is
+/// really made, not of what is left of it when the plan's is taken off.
+#[test]
+fn speed_runs_are_measured_from_sample_to_sample() {
+    let runs = |change_mps: &[f64], speed_mps: f64| {
+        let speed_mps = vec![speed_mps; change_mps.len()];
+        let found = speed_runs(change_mps, &speed_mps, &USV, 1.0);
+        found.into_iter().map(|run| (run.start, run.end)).collect::<Vec<_>>()
+    };
+    // 0.09 m/s in one second: a mean over two would be under 0.05 m/s^2
+    let step = [0.0, 0.0, -0.09, -0.09, -0.09];
+    assert_eq!(runs(&step, 1.0), [(1, 2)]);
+    // 1.5 % of the speed
+    assert!(runs(&step, 6.0).is_empty());
+    // slower, faster, and a pause between
+    let three = [0.0, -0.5, -1.0, -0.6, -0.6, 0.0];
+    assert_eq!(runs(&three, 5.0), [(0, 2), (2, 3), (4, 5)]);
+    assert!(runs(&[1.0], 5.0).is_empty() && runs(&[], 5.0).is_empty());
+}
+
+/// A quarter of next to no speed is nothing: from 0.15 m/s to 0.3 breaks no duty to hold, from 5 to
+/// 3.5 does.
+#[test]
+fn a_ship_that_lies_nearly_still_keeps_her_speed() {
+    let holds = |from_mps: f64, to_mps: f64| {
+        let mut trace = run(&own(), &[from_port()], 300);
+        for (k, north_mps) in trace.own.vel_north_mps.iter_mut().enumerate() {
+            *north_mps = if k < 20 { from_mps } else { to_mps };
+        }
+        assert_eq!(lives(&trace, &USV)[0].in_sight.as_ref().unwrap().stages[0], Some(0));
+        finding(&trace, Check::R17Hold).status
+    };
+    assert_eq!(holds(0.15, 0.3), Finding::Holds);
+    assert_eq!(holds(5.0, 3.5), Finding::Violated);
+}
+
+/// The stand-on ship that acts by right is asked for size: one that did next to nothing broke Rule
+/// 8, and is not excused for a close pass.
+#[test]
+fn a_small_action_by_right_is_a_breach() {
+    let acted = |degrees: f64| run(&own().turn(60, degrees), &[from_port()], 300);
+    let small = acted(3.0);
+    assert_eq!(finding(&small, Check::R17Hold).status, Finding::Holds);
+    assert_eq!(finding(&small, Check::R8Magnitude).status, Finding::Violated);
+    assert_eq!(finding(&acted(40.0), Check::R8Magnitude).status, Finding::Holds);
+    // before she may act it is 17(a)(i) that asks
+    let early = run(&own().turn(20, 5.0), &[from_port()], 300);
+    assert_eq!(finding(&early, Check::R8Magnitude).status, Finding::NotApplicable);
+    // what she did decides whether a close pass is the other's fault
+    let near = |mut trace: Trace| {
+        trace.contact = None;
+        trace.pairs[0].minimum.hull_m = 80.0;
+        finding(&trace, Check::Safe).status
+    };
+    assert_eq!(near(small), Finding::Violated);
+    assert_eq!(near(acted(40.0)), Finding::Holds);
 }
 
 /// The mean heading shows a turn seconds before the ship made it.

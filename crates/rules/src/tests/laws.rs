@@ -188,6 +188,20 @@ proptest! {
         prop_assert_eq!(a.ambiguous, b.ambiguous);
     }
 
+    /// A sentence names the moment at which the verdict stands: a figure shows it there.
+    #[test]
+    fn a_sentence_stands_at_its_moment(draw in draws(), alert in prop::option::of(1f64..300.0)) {
+        let mut trace = draw.scene(0.0, 1.0, 0.0).trace();
+        trace.alerts.extend(alert.map(|t_s| record::Alert { t_s, target: 0, rule: String::new() }));
+        for verdict in judge_by(rules(), &trace).verdicts {
+            if let Some(sentence) = &verdict.sentence {
+                let t_s = verdict.t_s.unwrap() as u64;
+                let clock = format!("At {:02}:{:02}", t_s / 60, t_s % 60);
+                prop_assert!(sentence.starts_with(&clock), "{} in {:#?}", clock, verdict);
+            }
+        }
+    }
+
     /// A failure never has a positive margin, and a pass never a negative one.
     #[test]
     fn margins_agree_with_the_status(draw in draws(), hull in prop::bool::ANY) {

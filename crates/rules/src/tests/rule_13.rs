@@ -30,6 +30,18 @@ fn a_run_that_ends_before_release_shows_nothing_of_13d() {
     expect(&judgement, Check::R13, Inconclusive, "NOT-RELEASED");
 }
 
+/// Past and clear ends the duty: the ships may meet again, and that is another encounter.
+#[test]
+fn a_second_meeting_is_no_part_of_the_first() {
+    // long past and clear she goes nearer to the other's line, stops, and is met again
+    let nearer = overtake(20.0).hold(300.0).turn(-90.0, 3.0);
+    let script = nearer.speed_to(0.3, 0.5).hold(400.0);
+    let judgement = judge(&Scene::new(script, slow_ahead()));
+    let facts = &judgement.pairs[0];
+    assert!(facts.cpa_s.unwrap() > 600.0 && facts.released_s.unwrap() < 600.0, "{facts:#?}");
+    expect(&judgement, Check::R13, Pass, "");
+}
+
 /// Named in section 16: overtaking, then drawing across her bow.
 #[test]
 fn overtaking_then_crossing_her_bow_is_13d() {

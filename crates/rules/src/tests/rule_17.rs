@@ -86,6 +86,18 @@ fn from_stage_3_on_she_may_act() {
     expect(&before, Check::R17Hold, Fail, "FAIL-17AI");
 }
 
+/// She may act from 218 s on: a cut of her speed that begins with that second is by right, one that
+/// has begun a second before is not.
+#[test]
+fn what_begins_at_the_moment_is_by_right() {
+    let slows_at = |from_s: f64| stand_on(own(6.0).hold(from_s).speed_to(3.0, 2.0).hold(700.0));
+    let by_right = slows_at(217.2);
+    assert_eq!(verdict(&by_right, Check::R17May).t_s, Some(218.0));
+    expect(&by_right, Check::R17Hold, Pass, "");
+    let before = slows_at(216.0);
+    expect(&before, Check::R17Hold, Fail, "FAIL-17AI");
+}
+
 #[test]
 fn in_extremis_she_shall_act() {
     // stage 4 at 277 s; five seconds of grace

@@ -37,8 +37,8 @@ fn in_fog_to_port_for_a_ship_ahead_fails() {
     expect(&wide(-10.3), Check::R19, Fail, "FAIL-19D-I");
 }
 
-/// Close quarters at 400 m: a pass at 300 m is no risk in sight of one another (200 m), but by radar
-/// alone 19(d) asks for action in ample time, and forbids port.
+/// Close quarters at 400 m: a pass at 300 m is no risk in sight of one another (200 m), but by
+/// radar alone 19(d) asks for action in ample time, and forbids port.
 #[test]
 fn in_fog_close_quarters_open_the_duty() {
     let passes = |visual_range_m: Option<f64>, turn_deg: f64| {
