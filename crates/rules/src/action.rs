@@ -67,7 +67,8 @@ impl Action {
         let inside = |start: usize| start >= from && start <= to;
         let runs = turns.filter(|run| inside(run.start));
         let runs: Vec<_> = runs.skip_while(|run| leads_back(life, own, run)).collect();
-        let speed_runs: Vec<_> = speeds.filter(|run| inside(run.start)).collect();
+        let speed_runs = speeds.filter(|run| inside(run.start));
+        let speed_runs: Vec<_> = speed_runs.skip_while(|run| regains(life, own, run)).collect();
         let mut action = Self {
             window: (from.min(to), to),
             search_from: 0,
@@ -251,10 +252,22 @@ impl Action {
 /// when there is nothing left to avoid.
 fn leads_back(life: &PairLife<'_>, own: &OwnSignals, run: &TurnRun) -> bool {
     let side = run.size_rad.signum();
-    let [before, after] = [run.edge, run.end].map(|k| own.smooth_rad[k] * side);
+    let [before, after] = [run.start, run.end].map(|k| own.heading_rad[k] * side);
     life.nominal.is_some()
         && before < 0.0
         && after < life.rules.manoeuvre.detectable_turn_rad
+        && settled(life, run.start)
+}
+
+/// Whether a run brings back the nominal speed after a loss too slow to be a run itself, when there
+/// is nothing left to avoid.
+fn regains(life: &PairLife<'_>, own: &OwnSignals, run: &SpeedRun) -> bool {
+    let before_mps = own.departure_mps[run.start];
+    let beyond_mps = life.rules.manoeuvre.detectable_speed_fraction * own.speed_mps[run.start];
+    life.nominal.is_some()
+        && run.change_mps > 0.0
+        && before_mps < 0.0
+        && before_mps + run.change_mps < beyond_mps
         && settled(life, run.start)
 }
 

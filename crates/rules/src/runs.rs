@@ -20,8 +20,8 @@ pub(crate) struct TurnRun {
     pub(crate) end: usize,
     /// Last quiet sample of the smoothed rate before it: what was before the run is before this.
     pub(crate) edge: usize,
-    /// Net change of the heading itself from `start` to `end`, radians, starboard positive: smoothing
-    /// takes degrees off a turn that is followed at once by its return.
+    /// Net change of the heading itself from `start` to `end`, radians, starboard positive:
+    /// smoothing takes degrees off a turn that is followed at once by its return.
     pub(crate) size_rad: f64,
 }
 

@@ -100,8 +100,18 @@ impl Action {
         };
         let turns = deviation.turns.iter().filter(mine).skip_while(to_plan).copied();
         let turns: Vec<Run> = turns.collect();
-        let speed_changes: Vec<Run> =
-            deviation.speed_changes.iter().filter(mine).copied().collect();
+        // Likewise the planned speed, after a slow loss of it.
+        let to_speed = |run: &&Run| {
+            let off_mps = |k: usize| deviation.speed_change_mps[k];
+            let least_mps = params.speed_detectable * deviation.speed_mps[run.start];
+            deviation.planned
+                && run.change > 0.0
+                && off_mps(run.start) < 0.0
+                && off_mps(run.end) < least_mps
+                && settled(&lives[target], run.start, params)
+        };
+        let speed_changes = deviation.speed_changes.iter().filter(mine).skip_while(to_speed);
+        let speed_changes: Vec<Run> = speed_changes.copied().collect();
         let first = turns.iter().chain(&speed_changes).map(|run| run.start).min();
         let (from, to) = match duty.reference {
             Some(k) => (k, k + 1),

@@ -249,15 +249,16 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Whether an alteration that can be seen in a sample before `end` was held. What is seen in one
-    /// was made before it.
+    /// Whether an alteration that can be seen in a sample before `end` was held. What is seen in
+    /// one was made before it.
     fn seen_before(&self, end: usize, action: &Action) -> bool {
         let last = action.turn_rad.len().saturating_sub(self.hold + 1);
         let held = |values: &[f64], side: f64, least: f64| {
             let seen = |x: &f64| side * x >= least;
             // a run that ended sooner than that holds nothing
             let window = |k: usize| values.get(k..=k + self.hold);
-            (action.from + 1..end.min(last + 1)).any(|k| window(k).is_some_and(|w| w.iter().all(seen)))
+            let lasts = |k: usize| window(k).is_some_and(|w| w.iter().all(seen));
+            (action.from + 1..end.min(last + 1)).any(lasts)
         };
         let p = self.params;
         [1.0, -1.0].into_iter().any(|side| {

@@ -5,6 +5,7 @@ mod common;
 
 use common::{Script, USV, run};
 use record::{Check, Trace};
+use stl::action::{Action, Deviation};
 use stl::life::lives;
 use stl::runs::speed_runs;
 use stl::{Finding, Robustness, judge};
@@ -137,6 +138,39 @@ fn a_ship_that_lies_nearly_still_keeps_her_speed() {
     };
     assert_eq!(holds(0.15, 0.3), Finding::Holds);
     assert_eq!(holds(5.0, 3.5), Finding::Violated);
+}
+
+/// Small turns to starboard, and before the closest point a way back to the line of the route that
+/// goes far past its course: the side of the action is starboard all the same. A yaw of 3 degrees
+/// is no action to return from.
+#[test]
+fn a_way_back_past_the_first_course_is_a_return() {
+    let risk = |own: &Script| {
+        let trace = run(own, &[ahead()], 300);
+        let lives = lives(&trace, &USV);
+        let duty = lives[0].in_sight.as_ref().unwrap();
+        let did = Action::of(&Deviation::of(&trace, &USV), &lives, 0, duty, &USV, 1.0);
+        (did.side > 0.0, did.returns)
+    };
+    let small = own().turn(2, 8.5).turn(26, 8.5).turn(50, 8.5).turn(74, 8.5);
+    let (side, returns) = risk(&small.turn(105, -75.0));
+    assert_eq!((side, returns), (true, Some(105)));
+    assert!(!risk(&own().turn(5, 3.0).turn(30, -40.0)).0);
+}
+
+/// What was given up slowly, and is taken up again when the pass is clear.
+#[test]
+fn speed_taken_up_again_is_no_action() {
+    let mut slow = own();
+    slow.speeds = vec![(20, -0.02, 40), (120, 0.2, 4)];
+    let aside = Script::straight(1500.0, 130.0, 180.0, 5.0);
+    let trace = run(&slow, &[aside], 300);
+    let lives = lives(&trace, &USV);
+    let duty = lives[0].in_sight.as_ref().unwrap();
+    let did = Action::of(&Deviation::of(&trace, &USV), &lives, 0, duty, &USV, 1.0);
+    assert_eq!(did.speed_changes, []);
+    let most = did.speed_cut.iter().copied().fold(0.0, f64::max);
+    assert!((most - 0.16).abs() < 1e-9, "{most}");
 }
 
 /// The stand-on ship that acts by right is asked for size: one that did next to nothing broke Rule

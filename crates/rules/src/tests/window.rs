@@ -67,6 +67,32 @@ fn an_alteration_past_the_first_course_is_an_action() {
     assert!(judgement.pairs[0].first_turn_rad.unwrap() > deg(35.0));
 }
 
+/// Four small turns to starboard, and before the closest point a brisk way back to the line of the
+/// route, which goes far past its course: a return all the same.
+#[test]
+fn a_way_back_past_the_first_course_is_no_action() {
+    let small = |script: Script| script.turn(8.5, 3.0).hold(22.0);
+    let acted = small(small(small(small(own(6.0).hold(45.0))))).hold(18.0);
+    let judgement = judge(&Scene::new(acted.turn(-75.0, 8.0).hold(400.0), head_on()));
+    expect(&judgement, Check::Turn, Pass, "");
+    let facts = &judgement.pairs[0];
+    assert!(facts.first_turn_rad.unwrap() > 0.0, "{facts:#?}");
+    assert!(verdict(&judgement, Check::R8Magnitude).status == Pass);
+    expect(&judgement, Check::R8Dribble, Fail, "FAIL-8-DRIBBLE");
+}
+
+/// Speed that was lost too slowly for a run, and is taken up again when the pass is clear: what she
+/// gave up is measured from before she did.
+#[test]
+fn speed_taken_up_again_is_no_action() {
+    let slow = own(6.0).hold(60.0).speed_to(5.2, 0.02).hold(120.0).speed_to(6.0, 0.2);
+    let judgement = judge(&Scene::new(slow.hold(400.0), target(2400.0, 130.0, 180.0, 6.0)));
+    let found = verdict(&judgement, Check::R8Magnitude);
+    let x_u = found.evidence.iter().find(|e| e.name == "x_u").unwrap().value;
+    assert!((x_u - 0.8 / 6.0).abs() < 0.01, "{found:#?}");
+    assert!(found.t_s.unwrap() < 100.0, "{found:#?}");
+}
+
 /// A turn to port before risk opened was free; that she then never went to starboard was not.
 #[test]
 fn an_early_port_turn_does_not_stand_for_the_starboard_one() {
