@@ -15,6 +15,7 @@ use crate::risk::RiskScanner;
 use crate::ruleset::RuleSet;
 use crate::ruling::Ruling;
 use crate::runs::{SpeedRun, TurnRun, speed_runs, turn_runs};
+use crate::scope::{ends_at_closest, in_sight_only};
 use crate::signal::OwnSignals;
 use crate::{
     last_minute, rule_05_07_lookout, rule_06_safe_speed, rule_08_dribble, rule_08_magnitude,
@@ -311,6 +312,11 @@ fn one_check(case: &Case<'_>, check: Check) -> Verdict {
         let status = Status::NotEvaluated;
         return Ruling::new(check, case.life.target, status).detail("OWN-STOPPED").done();
     }
+    // section 3: the clock of these rules ends at the closest point
+    if case.onset.k > case.end() && case.complete() && ends_at_closest(check) {
+        let status = Status::NotApplicable;
+        return Ruling::new(check, case.life.target, status).detail("PASSED-BEFORE-RISK").done();
+    }
     match check {
         // filled in by the caller
         Check::Safe => Ruling::new(check, case.life.target, Status::NotEvaluated).done(),
@@ -367,20 +373,4 @@ fn in_sight_at(life: &PairLife<'_>) -> Option<usize> {
             Some(if seen <= onset { 0 } else { seen })
         }
     }
-}
-
-/// Checks of the rules for vessels in sight of one another.
-const fn in_sight_only(check: Check) -> bool {
-    matches!(
-        check,
-        Check::Turn
-            | Check::R13
-            | Check::R14
-            | Check::R15
-            | Check::R16
-            | Check::R17Hold
-            | Check::R17May
-            | Check::R17Shall
-            | Check::R17Port
-    )
 }

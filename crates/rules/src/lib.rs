@@ -38,6 +38,7 @@ mod ruleset_file;
 mod ruling;
 mod runs;
 mod safe;
+mod scope;
 mod score;
 mod signal;
 mod turn;

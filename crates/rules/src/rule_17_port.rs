@@ -82,13 +82,14 @@ fn port_rad(case: &Case<'_>, from: usize, until: usize) -> f64 {
     case.action.held_offset_rad(case.life, case.own, -1.0, from..until.max(from))
 }
 
-/// The other was on the port side, forward of the overtaking sector, when the action to port began:
-/// where there is none, at the onset of risk. A way back to the route is none.
+/// The other was on the port side, forward of the overtaking sector, when the action to port began.
+/// Where there is none (a way back to the route is none) the class says so.
 fn on_port_side(case: &Case<'_>) -> bool {
     let back = case.action.first_return(case.life).unwrap_or(usize::MAX);
     let acts = case.action.runs.iter().take_while(|run| run.start < back);
     let to_port = acts.into_iter().find(|run| run.size_rad < 0.0);
-    let k = to_port.map_or(case.onset.k, |run| run.start);
-    let beta_rad = crate::risk::relative(&case.life.actual, k).beta_rad;
-    beta_rad > -OVERTAKING_SECTOR_RAD && beta_rad < 0.0
+    to_port.is_none_or(|run| {
+        let beta_rad = crate::risk::relative(&case.life.actual, run.start).beta_rad;
+        beta_rad > -OVERTAKING_SECTOR_RAD && beta_rad < 0.0
+    })
 }

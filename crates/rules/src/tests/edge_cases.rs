@@ -288,3 +288,19 @@ fn a_pass_under_the_other_role_is_a_warning() {
     assert!(facts.ambiguous);
     expect(&judgement, Check::R8Time, Warn, "AMBIGUOUS");
 }
+
+/// The ships draw apart from the start, before the second at which risk would have opened on the
+/// nominal track: the clock of Rules 8 and 14 to 17 never ran.
+#[test]
+fn what_is_passed_before_risk_opens_is_not_judged() {
+    let judgement = judge(&Scene::new(
+        own(6.0).turn(178.0, 20.0).speed_to(9.0, 1.0).hold(600.0),
+        target(2400.0, 10.0, 180.0, 6.0),
+    ));
+    let facts = &judgement.pairs[0];
+    assert!(facts.risk_s.unwrap() > facts.cpa_s.unwrap(), "{facts:#?}");
+    for check in [Check::R8Magnitude, Check::R8Time, Check::R14] {
+        expect(&judgement, check, Status::NotApplicable, "PASSED-BEFORE-RISK");
+    }
+    expect(&judgement, Check::Safe, Status::Pass, "EXCELLENT");
+}

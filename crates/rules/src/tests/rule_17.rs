@@ -127,6 +127,17 @@ fn not_to_port_for_a_ship_on_the_port_side() {
     expect(&give_way, Check::R17Port, NotApplicable, "");
 }
 
+/// A yaw too slow for a run had put the other fine on her starboard bow when risk opened: the class
+/// is that of the nominal track, and what she did was to starboard.
+#[test]
+fn a_ship_that_never_altered_to_port_kept_17c() {
+    let script = own(6.0).hold(5.0).turn(-5.0, 0.3).hold(240.0).turn(60.0, 6.0).hold(400.0);
+    let judgement = judge(&Scene::new(script, target(2400.0, -134.0, 150.0, 0.742)));
+    assert_eq!(judgement.pairs[0].class, Some(EncounterClass::CrossingPort));
+    assert!(judgement.pairs[0].risk_s.unwrap() > 30.0);
+    expect(&judgement, Check::R17Port, Pass, "");
+}
+
 /// She acts to starboard by right and turns back before the closest point, the other abaft her beam
 /// on the heading of the action: the rule was put to the test and kept.
 #[test]
