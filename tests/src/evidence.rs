@@ -83,6 +83,14 @@ fn a_pack_shows_its_sweeps_and_what_changed_since_the_pack_before() {
     let row = format!("<td>class differs</td>{}", changed.concat());
     assert!(page.contains(&row) && page.contains(sweep), "no {row}");
 
+    // what a pack tells its reader to do leaves it whole
+    let said = run_ok(folder.path(), "replay pack/result head_on/000001");
+    assert!(said.contains("the same bits") && said.contains("pack-replay"), "{said}");
+    assert!(folder.path().join("pack-replay/head_on-000001.svg").exists());
+    let said = run_err(folder.path(), "judge pack/result --rules usv-ccta2023-v1", 2);
+    assert!(said.contains("part of the pack"), "{said}");
+    run_ok(folder.path(), "verify pack --sample 1");
+
     for file in ["previous/summary.json", sweep] {
         let path = pack.join(file);
         let good = fs::read(&path).unwrap();

@@ -43,7 +43,7 @@ pub(crate) enum Ink {
 
 impl Ink {
     /// Those that a theme replaces, with the names of the variables.
-    pub(crate) const THEMED: [(Self, &str); 10] = [
+    pub(crate) const THEMED: [(Self, &str); 11] = [
         (Self::Paper, "--paper"),
         (Self::Text, "--text"),
         (Self::Muted, "--muted"),
@@ -54,7 +54,17 @@ impl Ink {
         (Self::Warn, "--warn"),
         (Self::Good, "--good"),
         (Self::Nominal, "--nominal"),
+        (Self::Heat(0), "--none"),
     ];
+
+    /// The colour of words on a step of the scale of shares; on the first, which has the theme's
+    /// colour, the theme's.
+    pub(crate) const fn on_heat(step: u8) -> Self {
+        match step {
+            0 => Self::Text,
+            step => Self::OnHeat(step >= 3),
+        }
+    }
 
     pub(crate) const fn rgb(self) -> (u8, u8, u8) {
         match self {
@@ -313,7 +323,7 @@ mod tests {
     #[test]
     fn themed_colours_are_different() {
         let mut seen: Vec<String> = Ink::THEMED.iter().map(|(ink, _)| ink.hex()).collect();
-        seen.extend((0..5).map(|step| Ink::Heat(step).hex()));
+        seen.extend((1..5).map(|step| Ink::Heat(step).hex()));
         seen.extend([Ink::OnHeat(false).hex(), Ink::OnHeat(true).hex()]);
         let count = seen.len();
         seen.sort();

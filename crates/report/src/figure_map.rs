@@ -117,7 +117,7 @@ fn draw_cell(sheet: &mut Sheet, panel: &Panel, key: CellKey, cell: &Cell) {
         Area::new(middle.x - width / 2.0 + 0.5, middle.y - ROW / 2.0 + 0.5, width - 1.0, ROW - 1.0);
     let step = step(cell.failures as f64 / cell.n as f64);
     sheet.fill(&area, Ink::Heat(step), 1.0);
-    let ink = Ink::OnHeat(step >= 3);
+    let ink = Ink::on_heat(step);
     let failures = Type::new(11.0, ink, At::Middle);
     let failures = if cell.failures > 0 { failures.bold() } else { failures };
     sheet.text(&short_count(cell.failures), middle.x, middle.y - 6.0, failures);

@@ -112,7 +112,7 @@ fn rose(sheet: &mut Sheet, centre: Vec2, sectors: &[Sector], k: fn(&Sector) -> u
         if sector.n > 0 {
             let step = step(k(sector) as f64 / sector.n as f64);
             sheet.clipped_polygon(&all, &outline, Ink::Heat(step), 1.0);
-            let ink = Ink::OnHeat(step >= 3);
+            let ink = Ink::on_heat(step);
             let middle = at(sector.bearing_deg, 0.82 * RADIUS);
             let number = Type::new(12.0, ink, At::Middle);
             let number = if k(sector) > 0 { number.bold() } else { number };

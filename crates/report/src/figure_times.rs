@@ -114,6 +114,10 @@ fn draw_panel(sheet: &mut Sheet, area: Area, group: &Group, end_s: f64, last: bo
         for (times, pen) in curves {
             panel.curve(sheet, &share_acted(times, end_s), pen);
         }
+        if group.summary.reaction_time_s.censored == n {
+            let (x, y) = (area.x + area.width / 2.0, area.y + area.height / 2.0);
+            sheet.text("no run acted", x, y, Type::new(12.0, Ink::Muted, At::Middle));
+        }
     }
     panel.frame(sheet);
 }

@@ -33,3 +33,10 @@ pub(crate) fn hashes(paths: Vec<String>) -> Result<BTreeMap<String, String>, Err
     };
     paths.into_iter().map(hash).collect()
 }
+
+/// The evidence pack that a result is part of. Nothing may be written into it: `verify` finds a
+/// file that does not belong there.
+pub(crate) fn pack_around(result: &Path) -> Option<PathBuf> {
+    let pack = result.canonicalize().ok()?.parent()?.to_owned();
+    pack.join(evidence::STATEMENT).exists().then_some(pack)
+}

@@ -27,6 +27,13 @@ pub(super) fn run(args: &JudgeArgs, registry: Registry) -> Result<Ended, Error> 
             args.dir.display()
         )));
     }
+    if let Some(pack) = files::pack_around(&args.dir) {
+        return Err(Error::input(format!(
+            "{} is part of the pack {}, which must not change; copy it elsewhere first",
+            args.dir.display(),
+            pack.display()
+        )));
+    }
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
     campaign::engine::quiet_planner_panics();
     let job = Job {

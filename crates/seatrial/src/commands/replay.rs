@@ -6,7 +6,7 @@ use campaign::{Error, Folder, worker};
 use planner_api::Registry;
 use record::{EncounterId, Status};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<Ended, Error> {
     let id: EncounterId =
@@ -43,7 +43,7 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
             d.second
         );
     }
-    let pictures = folder.path().join("replay");
+    let pictures = pictures(folder.path());
     fs::create_dir_all(&pictures).map_err(Error::io("make", &pictures))?;
     let picture = pictures.join(format!("{}.svg", id.file_stem()));
     let case = crate::rendering::case(&plan, run);
@@ -55,4 +55,15 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
     }
     say!("  NOT the same bits: stored {}", stored.digest);
     Ok(Ended::Failed)
+}
+
+/// Beside the pack where the result is in one, which must not change; else in the result.
+fn pictures(result: &Path) -> PathBuf {
+    match crate::files::pack_around(result) {
+        Some(pack) => {
+            let name = pack.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            pack.with_file_name(name + "-replay")
+        }
+        None => result.join("replay"),
+    }
 }
