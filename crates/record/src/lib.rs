@@ -14,6 +14,7 @@ pub mod sensing;
 pub mod stream;
 pub mod trace;
 pub mod verdict;
+mod way;
 pub mod weather;
 
 pub use check::Check;

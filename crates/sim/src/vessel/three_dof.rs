@@ -7,7 +7,9 @@
 //! `rudder_arm_m` gives moment and side force together.
 //!
 //! Integrated by the classical fourth-order Runge-Kutta rule with the autopilot inside the
-//! derivative: a zero-order hold would add a delay of half a step to every manoeuvre.
+//! derivative: a zero-order hold would add a delay of half a step to every manoeuvre. Where a limit
+//! begins or ceases to hold the derivative has a kink, at which the rule is of second order only; a
+//! step that meets one is taken again in [`KINK_PIECES`] pieces (docs/adr/0010).
 
 use super::slew::{Rates, Reach, Steering, reach};
 use super::{Actuators, Helm, Limits, State};
@@ -94,8 +96,14 @@ const TIME_CONSTANT_S_MAX: f64 = 3600.0;
 /// Speed below which the drift angle loses its meaning and the autopilot steers by heading, m/s.
 const DRIFT_MPS: f64 = 0.5;
 
+/// Pieces of a step in which a limit begins or ceases to hold.
+const KINK_PIECES: u32 = 8;
+
 /// Body velocities or their derivatives: surge, sway, yaw.
 type Nu = [f64; 3];
+
+/// Thrust and side force (N), and which limits hold: a number for each set of them.
+pub(super) type Forces = (f64, f64, u8);
 
 impl MassMatrix {
     fn inverse(&self) -> Self {
@@ -172,22 +180,39 @@ impl ThreeDof {
         state: &State,
         current_mps: Vec2,
         dt_s: f64,
-        wish: impl Fn(&Nu, Vec2) -> (f64, f64),
+        wish: impl Fn(&Nu, Vec2) -> Forces,
     ) -> State {
+        let (next, kinked) = self.piece(state, current_mps, dt_s, &wish);
+        if !kinked {
+            return next;
+        }
+        let piece_s = dt_s / f64::from(KINK_PIECES);
+        (0..KINK_PIECES).fold(*state, |s, _| self.piece(&s, current_mps, piece_s, &wish).0)
+    }
+
+    /// A step, or a piece of one, and whether a limit began or ceased to hold in it.
+    #[inline]
+    fn piece(
+        &self,
+        state: &State,
+        current_mps: Vec2,
+        dt_s: f64,
+        wish: &impl Fn(&Nu, Vec2) -> Forces,
+    ) -> (State, bool) {
         let Some(rates) = self.propulsion.rates else {
             return self.integrate(state, current_mps, dt_s, |nu, heading, _| wish(nu, heading));
         };
         let from = state.actuators;
         let follow = |nu: &Nu, heading: Vec2, after_s: f64| {
-            let (thrust_n, side_n) = wish(nu, heading);
+            let (thrust_n, side_n, limits) = wish(nu, heading);
             let thrust = Reach { from: from.engine, rate: rates.thrust_nps };
             let side = Reach { from: from.steering, rate: rates.side_nps };
-            (reach(thrust, thrust_n, after_s), reach(side, side_n, after_s))
+            (reach(thrust, thrust_n, after_s), reach(side, side_n, after_s), limits)
         };
-        let next = self.integrate(state, current_mps, dt_s, follow);
+        let (next, kinked) = self.integrate(state, current_mps, dt_s, follow);
         let nu = [next.surge_mps, next.sway_mps, next.yaw_rate_radps];
-        let (engine, steering) = follow(&nu, next.heading, dt_s);
-        State { actuators: Actuators { engine, steering }, ..next }
+        let (engine, steering, _) = follow(&nu, next.heading, dt_s);
+        (State { actuators: Actuators { engine, steering }, ..next }, kinked)
     }
 
     /// The state with the thrust that holds its speed.
@@ -206,7 +231,7 @@ impl ThreeDof {
 
     /// Moves through `dt_s` seconds with engine and rudder off.
     pub fn coast(&self, state: &State, current_mps: Vec2, dt_s: f64) -> State {
-        self.integrate(state, current_mps, dt_s, |_, _, _| (0.0, 0.0))
+        self.integrate(state, current_mps, dt_s, |_, _, _| (0.0, 0.0, 0)).0
     }
 
     /// Kinetic energy relative to the water, added mass included, J.
@@ -216,23 +241,26 @@ impl ThreeDof {
         0.5 * (m.surge * u * u + m.sway * v * v + 2.0 * m.sway_yaw * v * r + m.yaw * r * r)
     }
 
-    /// One Runge-Kutta step under thrust and side force from `control(nu, heading, after_s)`.
+    /// One Runge-Kutta step under thrust and side force from `control(nu, heading, after_s)`, and
+    /// whether not the same limits held all the way.
     #[inline]
     fn integrate(
         &self,
         state: &State,
         current_mps: Vec2,
         dt_s: f64,
-        control: impl Fn(&Nu, Vec2, f64) -> (f64, f64),
-    ) -> State {
+        control: impl Fn(&Nu, Vec2, f64) -> Forces,
+    ) -> (State, bool) {
         let start = [state.surge_mps, state.sway_mps, state.yaw_rate_radps];
         let inverse = self.mass.inverse();
         let (mut nu, mut heading) = (start, state.heading);
         let (mut nu_sum, mut path_sum) = ([0.0; 3], Vec2::zeros());
         let mut turn_sum_radps = 0.0;
         let mut at = 0.0;
+        let (mut all, mut any) = (u8::MAX, 0);
         for (share, reach) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
-            let (thrust_n, side_n) = control(&nu, heading, at * dt_s);
+            let (thrust_n, side_n, limits) = control(&nu, heading, at * dt_s);
+            (all, any) = (all & limits, any | limits);
             at = reach;
             let rate = self.acceleration(&nu, thrust_n, side_n, &inverse);
             let [u, v, r] = nu;
@@ -249,7 +277,7 @@ impl ThreeDof {
         }
         let sixth_s = dt_s / 6.0;
         let psi_rad = geom::wrap(state.psi_rad + sixth_s * turn_sum_radps);
-        State {
+        let next = State {
             position_m: state.position_m + (path_sum * sixth_s + current_mps * dt_s),
             psi_rad,
             heading: geom::unit(psi_rad),
@@ -257,7 +285,8 @@ impl ThreeDof {
             sway_mps: start[1] + sixth_s * nu_sum[1],
             yaw_rate_radps: start[2] + sixth_s * nu_sum[2],
             actuators: state.actuators,
-        }
+        };
+        (next, all != any)
     }
 
     /// Coriolis and damping, as they stand on the left-hand side: `C(nu) nu + D(nu) nu`.
@@ -285,7 +314,7 @@ impl ThreeDof {
         ]
     }
 
-    /// Thrust and side force (N) of the autopilot.
+    /// Thrust and side force (N) of the autopilot, and the limits that hold.
     ///
     /// The direction that is brought onto the order lies halfway between heading and course
     /// through the water. Heading alone leaves the boat drifting sideways long after a turn;
@@ -293,7 +322,7 @@ impl ThreeDof {
     /// The error enters as `2 tan(e/2)`, which is the angle where it matters, saturates well
     /// before half a turn, is exactly odd, and costs no transcendental function.
     #[inline]
-    fn autopilot_n(&self, nu: &Nu, heading: Vec2, helm: &Helm) -> (f64, f64) {
+    fn autopilot_n(&self, nu: &Nu, heading: Vec2, helm: &Helm) -> Forces {
         let [u, v, r] = *nu;
         let gains = &self.autopilot;
         let per_speed = 1.0 / (u * u + v * v + DRIFT_MPS * DRIFT_MPS).sqrt();
@@ -317,10 +346,17 @@ impl ThreeDof {
         let resistance = self.resistance(nu);
         let p = &self.propulsion;
         let moment_nm = resistance[2] + self.mass.yaw * gains.yaw_rate * (yaw_rate_radps - r);
-        let side_n = (moment_nm / p.rudder_arm_m).clamp(-p.side_n_max, p.side_n_max);
+        let side_n = moment_nm / p.rudder_arm_m;
         let speed_mps = helm.speed_mps.min(self.speed_mps_max);
         let thrust_n = resistance[0] + self.mass.surge * gains.speed * (speed_mps - u);
-        (thrust_n.clamp(-p.astern_n_max, p.thrust_n_max), side_n)
+        let limits = u8::from(yaw_rate_radps >= limit_radps)
+            | u8::from(yaw_rate_radps <= -limit_radps) << 1
+            | u8::from(side_n > p.side_n_max) << 2
+            | u8::from(side_n < -p.side_n_max) << 3
+            | u8::from(thrust_n > p.thrust_n_max) << 4
+            | u8::from(thrust_n < -p.astern_n_max) << 5;
+        let thrust_n = thrust_n.clamp(-p.astern_n_max, p.thrust_n_max);
+        (thrust_n, side_n.clamp(-p.side_n_max, p.side_n_max), limits)
     }
 }
 

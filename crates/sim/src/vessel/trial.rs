@@ -85,8 +85,8 @@ impl Model {
                 ship.by_hand(state, order.rudder_rad / FULL_RAD, gain, dt_s)
             }
             Self::ThreeDof(ship) => {
-                let wish = forces_n(ship, order);
-                ship.step_with(state, calm, dt_s, |_, _| wish)
+                let (thrust_n, side_n) = forces_n(ship, order);
+                ship.step_with(state, calm, dt_s, |_, _| (thrust_n, side_n, 0))
             }
             Self::Nomoto(ship) => {
                 let rudder_rad = order.rudder_rad;
