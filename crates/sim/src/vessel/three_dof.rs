@@ -99,10 +99,15 @@ const DRIFT_MPS: f64 = 0.5;
 /// Pieces of a step in which a limit begins or ceases to hold.
 const KINK_PIECES: u32 = 8;
 
+/// An actuator lags where it is further from the wish than it moves in this share of a step. The
+/// small jump that each new order brings is no kink worth pieces.
+const LAG_SHARE: f64 = 0.05;
+
 /// Body velocities or their derivatives: surge, sway, yaw.
 type Nu = [f64; 3];
 
-/// Thrust and side force (N), and which limits hold: a number for each set of them.
+/// Thrust and side force (N), and which limits hold, a bit each: three pairs of the autopilot,
+/// then the rates of engine and steering.
 pub(super) type Forces = (f64, f64, u8);
 
 impl MassMatrix {
@@ -207,7 +212,14 @@ impl ThreeDof {
             let (thrust_n, side_n, limits) = wish(nu, heading);
             let thrust = Reach { from: from.engine, rate: rates.thrust_nps };
             let side = Reach { from: from.steering, rate: rates.side_nps };
-            (reach(thrust, thrust_n, after_s), reach(side, side_n, after_s), limits)
+            let (engine_n, steering_n) =
+                (reach(thrust, thrust_n, after_s), reach(side, side_n, after_s));
+            let lags = |is_n: f64, wish_n: f64, nps: f64| {
+                u8::from((wish_n - is_n).abs() > LAG_SHARE * nps * dt_s)
+            };
+            let rates = lags(engine_n, thrust_n, rates.thrust_nps) << 6
+                | lags(steering_n, side_n, rates.side_nps) << 7;
+            (engine_n, steering_n, limits | rates)
         };
         let (next, kinked) = self.integrate(state, current_mps, dt_s, follow);
         let nu = [next.surge_mps, next.sway_mps, next.yaw_rate_radps];
