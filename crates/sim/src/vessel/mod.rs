@@ -3,6 +3,7 @@
 //! Every model follows the same order, a heading and a speed through the water ([`Helm`]), within
 //! the limits of its actuators. The state is relative to the water; a constant current carries it.
 
+mod autopilot;
 mod frigate;
 mod gunnerus;
 mod helm;
@@ -14,6 +15,7 @@ mod three_dof;
 pub mod trial;
 mod viknes;
 
+pub use autopilot::Autopilot;
 pub use frigate::FRIGATE;
 pub use gunnerus::GUNNERUS;
 pub use helm::Helm;
@@ -21,7 +23,7 @@ pub use kinematic::Kinematic;
 pub use nomoto::{Gains, Nomoto};
 pub use slew::{Actuators, Rates, Steering};
 pub use stopping::stopping;
-pub use three_dof::{Autopilot, Damping, MassMatrix, Propulsion, ThreeDof};
+pub use three_dof::{Damping, MassMatrix, Propulsion, ThreeDof};
 pub use viknes::VIKNES;
 
 use geom::Vec2;

@@ -103,8 +103,8 @@ mod tests {
         assert!((10.0..24.0).contains(&(coarse / fine)), "{coarse} {fine}");
     }
 
-    /// Every one of these turns begins at the limit of the steering and passes that of the yaw rate.
-    /// With the kinks taken in one piece the second was 8 mm off.
+    /// Every one of these turns begins at the limit of the steering and passes that of the yaw
+    /// rate. With the kinks taken in one piece the second was 8 mm off.
     #[test]
     fn half_the_step_changes_a_turn_by_less_than_a_millimetre() {
         for (course_deg, speed_mps) in [(20.0, 7.0), (45.0, 4.0), (90.0, 7.0), (-160.0, 2.0)] {
