@@ -4,15 +4,18 @@
 //! comes out. Read [`sample`] first: it draws one encounter.
 #![forbid(unsafe_code)]
 
+mod checks;
 pub mod course;
 pub mod distribution;
 pub mod dnv;
 mod dnv_ship;
 pub mod error;
 pub mod geographic;
+pub mod hazard;
 pub mod intent;
 mod json;
 pub mod limits;
+mod named;
 pub mod nominal;
 pub mod placement;
 pub mod sample;
@@ -27,7 +30,8 @@ pub use distribution::Distribution;
 pub use dnv::{SituationSettings, read_situations};
 pub use error::Error;
 pub use limits::{Limits, ScaledLimits};
+pub use named::situations;
 pub use nominal::{class_at_start, last_cpa_s, nominal_cpa};
 pub use sample::{Drawn, Generator, RunSettings};
-pub use situation::{SetSettings, Situation, situations};
+pub use situation::{SetSettings, Situation};
 pub use spec::Model;

@@ -6,9 +6,10 @@
 //! has weight 1: within a stratum this is a crude Monte Carlo draw.
 
 use crate::Error;
+use crate::hazard::corners;
 use crate::limits::either;
 use crate::placement::Placed;
-use crate::spec::{KINEMATIC, Model, corners};
+use crate::spec::{KINEMATIC, Model};
 use crate::target::{Made, Own, Request};
 use geom::{HullOutline, Vec2, unit};
 use record::{
