@@ -5,7 +5,7 @@ use crate::error::require;
 use crate::hazard::validate_hazards;
 use crate::limits::{Limits, ScaledLimits, positive, validate_either};
 use crate::spec::TargetSpec;
-use crate::spec::{AlsoSpec, GeometrySpec, IntentSpec, KINEMATIC, Model, OwnSpec, StratumSpec};
+use crate::spec::{GeometrySpec, IntentSpec, KINEMATIC, Model, OwnSpec, StratumSpec};
 use crate::weather::WeatherSpec;
 use crate::{Error, RunSettings};
 
@@ -36,6 +36,30 @@ impl Model {
                 self.stratum[..i].iter().all(|other| other.name != stratum.name),
                 || format!("model.stratum.{}", stratum.name),
                 || "stands twice; names of strata are unique".to_owned(),
+            )?;
+            self.validate_arrivals(stratum)?;
+        }
+        self.encounter_rate.as_ref().map_or(Ok(()), |rate| rate.validate(self))
+    }
+
+    /// Arrivals of further targets, none of them before the start.
+    fn validate_arrivals(&self, stratum: &StratumSpec) -> Result<(), Error> {
+        let first_s = self.geometry.tcpa_s[0];
+        for (i, also) in stratum.also.iter().flatten().enumerate() {
+            let Some(after_s) = &also.tcpa_after_first_s else { continue };
+            let key = format!("model.stratum.{}.also.{}.tcpa_after_first_s", stratum.name, i + 1);
+            after_s.validate(&key)?;
+            let earliest_s = first_s + after_s.bounds().0;
+            require(
+                earliest_s > 0.0,
+                || key,
+                || {
+                    format!(
+                        "reaches {}: with the first target {first_s} s from CPA she would have \
+                         passed before the start",
+                        after_s.bounds().0
+                    )
+                },
             )?;
         }
         Ok(())

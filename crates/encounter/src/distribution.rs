@@ -100,6 +100,42 @@ impl Distribution {
         }
     }
 
+    /// Points and weights of a quadrature over the law; the weights sum to 1. Exact for a law of
+    /// single values, else the midpoint rule over equal parts of the range.
+    pub(crate) fn nodes(&self) -> Vec<(f64, f64)> {
+        const PARTS: u32 = 96;
+        let (low, high) = self.bounds();
+        let density: Box<dyn Fn(f64) -> f64> = match self {
+            Self::Constant(value) => return vec![(*value, 1.0)],
+            Self::Empirical(values) => {
+                let share = 1.0 / values.len() as f64;
+                return values.iter().map(|&value| (value, share)).collect();
+            }
+            Self::Uniform(_) => Box::new(|_| 1.0),
+            Self::Triangular(law) => Box::new(|x| {
+                if x < law.mode {
+                    (x - law.low) / (law.mode - law.low) / (law.high - law.low)
+                } else {
+                    (law.high - x) / (law.high - law.mode) / (law.high - law.low)
+                }
+            }),
+            Self::Normal(law) => Box::new(|x| {
+                let off = (x - law.mean) / law.sd;
+                geom::math::exp(-0.5 * off * off)
+            }),
+            Self::Lognormal(law) => Box::new(|x| {
+                let off = geom::math::ln(x / law.median) / law.sigma;
+                geom::math::exp(-0.5 * off * off) / x
+            }),
+        };
+        let width = (high - low) / f64::from(PARTS);
+        let points = (0..PARTS).map(|i| low + width * (f64::from(i) + 0.5));
+        let mut nodes: Vec<(f64, f64)> = points.map(|x| (x, density(x))).collect();
+        let sum: f64 = nodes.iter().map(|node| node.1).sum();
+        nodes.iter_mut().for_each(|node| node.1 /= sum);
+        nodes
+    }
+
     /// Refuses a law that cannot be drawn from; `key` is where it stands in the file.
     pub fn validate(&self, key: &str) -> Result<(), Error> {
         match self {

@@ -123,6 +123,22 @@ impl IntentMix {
         target: Minded,
         stream: &mut Stream,
     ) -> Intent {
+        conduct.intent(self.choose(stream), target, stream)
+    }
+
+    /// Draws an intent with the shares of `drawn`, and the quotient of its share here and there.
+    pub(crate) fn draw_instead(
+        &self,
+        drawn: &Self,
+        conduct: &ConductSpec,
+        target: Minded,
+        stream: &mut Stream,
+    ) -> (Intent, f64) {
+        let kind = drawn.choose(stream);
+        (conduct.intent(kind, target, stream), self.share(kind) / drawn.share(kind))
+    }
+
+    fn choose(&self, stream: &mut Stream) -> Kind {
         let mut left = stream.uniform();
         let shares = self.shares();
         let chosen = shares.iter().find(|(_, _, share)| {
@@ -131,19 +147,52 @@ impl IntentMix {
         });
         // rounding can leave a remainder: the last kind with a share takes it
         let last = shares.iter().rev().find(|(_, _, share)| *share > 0.0);
-        match chosen.or(last).map_or(Kind::HoldCourse, |(kind, _, _)| *kind) {
-            Kind::HoldCourse => Intent::HoldCourse,
-            Kind::Comply => conduct.duty(Manner::Complies, &conduct.early_tcpa_s, stream),
-            Kind::Late => conduct.duty(Manner::Complies, &conduct.late_tcpa_s, stream),
-            Kind::Neglect => conduct.duty(Manner::Neglects, &conduct.early_tcpa_s, stream),
-            Kind::WrongWay => conduct.duty(Manner::WrongWay, &conduct.early_tcpa_s, stream),
-            Kind::Random => conduct.turns(target, stream),
-            Kind::Planner => Intent::Planner(conduct.planner.clone().unwrap_or_default()),
-        }
+        chosen.or(last).map_or(Kind::HoldCourse, |(kind, _, _)| *kind)
+    }
+
+    fn share(&self, kind: Kind) -> f64 {
+        let shares = self.shares();
+        shares.iter().find(|share| share.0 == kind).map_or(0.0, |share| share.2)
+    }
+
+    /// Largest quotient of a share here and there.
+    pub(crate) fn largest_quotient(&self, drawn: &Self) -> f64 {
+        let quotients = self.shares().into_iter().zip(drawn.shares());
+        let drawn_ones = quotients.filter(|(_, (_, _, drawn))| *drawn > 0.0);
+        drawn_ones.map(|((_, _, share), (_, _, drawn))| share / drawn).fold(0.0, f64::max)
+    }
+
+    /// Refuses a `drawn` mix that leaves out an intent, or has one that there is not.
+    pub(crate) fn validate_drawn(&self, key: &str, drawn: &Self) -> Result<(), Error> {
+        self.shares().into_iter().zip(drawn.shares()).try_for_each(|((_, name, share), there)| {
+            require(
+                (share > 0.0) == (there.2 > 0.0),
+                || format!("{key}.{name}"),
+                || {
+                    format!(
+                        "= {} with a true share of {share}: an intent is drawn where it has a \
+                         true share, and nowhere else",
+                        there.2
+                    )
+                },
+            )
+        })
     }
 }
 
 impl ConductSpec {
+    fn intent(&self, kind: Kind, target: Minded, stream: &mut Stream) -> Intent {
+        match kind {
+            Kind::HoldCourse => Intent::HoldCourse,
+            Kind::Comply => self.duty(Manner::Complies, &self.early_tcpa_s, stream),
+            Kind::Late => self.duty(Manner::Complies, &self.late_tcpa_s, stream),
+            Kind::Neglect => self.duty(Manner::Neglects, &self.early_tcpa_s, stream),
+            Kind::WrongWay => self.duty(Manner::WrongWay, &self.early_tcpa_s, stream),
+            Kind::Random => self.turns(target, stream),
+            Kind::Planner => Intent::Planner(self.planner.clone().unwrap_or_default()),
+        }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), Error> {
         const TABLE: &str = "model.target.conduct";
         let key = |name: &str| format!("{TABLE}.{name}");

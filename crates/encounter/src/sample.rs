@@ -2,21 +2,22 @@
 //!
 //! Geometry is drawn first and classified after; see [`crate::placement`] for the law that this
 //! gives each variable. Own ship draws from the geometry stream of ship 0, target `i` from that of
-//! ship `1 + i`, so that one more draw of a ship moves nothing else. Every encounter closes, and
-//! has weight 1: within a stratum this is a crude Monte Carlo draw.
+//! ship `1 + i`, so that one more draw of a ship moves nothing else. Every encounter closes. Within
+//! a stratum this is a crude Monte Carlo draw of weight 1, unless the model asks for the rate of a
+//! traffic ([`crate::encounter_rate`]).
 
 use crate::Error;
+use crate::encounter_rate::Rate;
 use crate::hazard::corners;
 use crate::limits::either;
 use crate::placement::Placed;
 use crate::spec::{KINEMATIC, Model};
-use crate::target::{Made, Own, Request};
+use crate::target::{Made, Own, Rated, Request, own_course_rad};
 use geom::{HullOutline, Vec2, unit};
 use record::{
     Asked, DistanceKind, Encounter, EncounterId, Motion, OwnShip, Purpose, RunLimits, Seed,
     Streams, Vessel, Visibility, Waypoint, Weather,
 };
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// What every encounter of a campaign takes over from the table `[run]`.
@@ -45,6 +46,8 @@ pub struct Generator {
     model: Model,
     run: RunSettings,
     strata: Vec<Arc<str>>,
+    /// One for each stratum, where the model asks for the rate of a traffic.
+    rates: Vec<Rate>,
 }
 
 impl Generator {
@@ -56,7 +59,11 @@ impl Generator {
             model: model.clone(),
             run: *run,
             strata: model.stratum.iter().map(|s| Arc::from(s.name.as_str())).collect(),
+            rates: model.rates(),
         };
+        if model.encounter_rate.is_some() {
+            return Ok(generator);
+        }
         for stratum in &model.stratum {
             for request in Request::all(model, stratum) {
                 request.try_extremes()?;
@@ -76,33 +83,51 @@ impl Generator {
         let spec = &self.model.stratum[stratum];
         let streams = Streams::new(seed, &id);
         let mut own_stream = streams.stream(Purpose::Geometry, 0);
-        let own_speed_mps = self.model.own.speed_mps.draw(&mut own_stream);
-        let own_psi_rad = if self.model.geometry.random_rotation {
-            // the upper end is the one that belongs to the circle (-pi, pi]
-            -own_stream.uniform_in(-PI, PI)
-        } else {
-            0.0
-        };
-
-        let own = Own { speed_mps: own_speed_mps, psi_rad: own_psi_rad };
-
-        let (mut asked, mut last_s, mut rejected) = (None, 0.0, 0);
-        let mut targets = Vec::with_capacity(1);
-        for request in Request::all(&self.model, spec) {
-            let Made { target, placed } =
-                request.make(own, &streams, &id, self.run.limits.duration_s_max)?;
-            let Placed { class, miss_m, tcpa_s, .. } = placed;
-            asked = asked.or(Some(Asked { class, miss_m, tcpa_s }));
-            last_s = tcpa_s.max(last_s);
-            rejected += placed.rejected;
-            targets.push(target);
+        if let Some(rate) = self.rates.get(stratum) {
+            let request = Request::first(&self.model, spec);
+            let duration_s_max = self.run.limits.duration_s_max;
+            let Rated { own, weight, made } =
+                request.make_at_rate(rate, &mut own_stream, &streams, &id, duration_s_max)?;
+            return Ok(self.drawn((id, seed), weight, own, &streams, vec![made]));
         }
+        let own_speed_mps = self.model.own.speed_mps.draw(&mut own_stream);
+        let own_psi_rad = own_course_rad(&self.model, &mut own_stream);
+        let own = Own { speed_mps: own_speed_mps, psi_rad: own_psi_rad };
+        let mut all: Vec<Made> = Vec::with_capacity(1);
+        for request in Request::all(&self.model, spec) {
+            let first_tcpa_s = all.first().map(|first| first.placed.tcpa_s);
+            let limit_s = self.run.limits.duration_s_max;
+            all.push(request.make(own, first_tcpa_s, &streams, &id, limit_s)?);
+        }
+        Ok(self.drawn((id, seed), 1.0, own, &streams, all))
+    }
+
+    /// The largest weight that an encounter of this stratum can have; 1 for crude draws.
+    pub fn weight_max(&self, stratum: usize) -> f64 {
+        self.rates.get(stratum).map_or(1.0, |rate| rate.weight_max)
+    }
+
+    /// The encounter of ships that are placed.
+    fn drawn(
+        &self,
+        (id, seed): (EncounterId, Seed),
+        weight: f64,
+        own: Own,
+        streams: &Streams,
+        all: Vec<Made>,
+    ) -> Drawn {
+        let asked = all.first().map(|first| {
+            let Placed { class, miss_m, tcpa_s, .. } = first.placed;
+            Asked { class, miss_m, tcpa_s }
+        });
+        let last_s = all.iter().map(|made| made.placed.tcpa_s).fold(0.0, f64::max);
+        let rejected = all.iter().map(|made| made.placed.rejected).sum();
         let encounter = Encounter {
             id,
             seed,
-            weight: 1.0,
+            weight,
             own: self.own_ship(own, last_s),
-            targets,
+            targets: all.into_iter().map(|made| made.target).collect(),
             hazards: self
                 .model
                 .hazard
@@ -110,11 +135,7 @@ impl Generator {
                 .flatten()
                 .map(|polygon| corners(polygon, own.psi_rad))
                 .collect(),
-            weather: self
-                .model
-                .weather
-                .as_ref()
-                .map_or_else(Weather::default, |w| w.draw(&streams)),
+            weather: self.model.weather.as_ref().map_or_else(Weather::default, |w| w.draw(streams)),
             sensing: self.model.sensing.sensing(),
             visibility: match self.model.visual_range_m {
                 None => Visibility::InSight,
@@ -125,7 +146,7 @@ impl Generator {
             distance: self.run.distance,
             run: self.run.limits,
         };
-        Ok(Drawn { encounter, rejected })
+        Drawn { encounter, rejected }
     }
 
     /// Own ship; her goal lies beyond the last closest point.

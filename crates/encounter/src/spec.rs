@@ -4,6 +4,7 @@
 //! documentation says. Units stand in the keys; degrees live here and nowhere further down.
 
 use crate::Distribution;
+use crate::encounter_rate::RateSpec;
 use crate::hazard::Polygon;
 use crate::intent::{ConductSpec, IntentMix};
 use crate::limits::{Limits, ScaledLimits};
@@ -34,6 +35,10 @@ pub struct Model {
     /// Land, piers and shoals: simple polygons, corners in metres ahead of own start and to
     /// starboard of it, which is north and east where own course is north; absent: none.
     pub hazard: Option<Vec<Polygon>>,
+    /// Draws encounters at the rate at which a traffic makes them, and weights them. Absent: the
+    /// laws are drawn as they stand, and every encounter has weight 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encounter_rate: Option<RateSpec>,
     /// What is asked for, in the order of reports.
     pub stratum: Vec<StratumSpec>,
 }
@@ -167,6 +172,11 @@ pub struct AlsoSpec {
     pub target_speed_mps: Option<Distribution>,
     /// Instead of the geometry's `relative_course_deg`.
     pub relative_course_deg: Option<Distribution>,
+    /// Arrival: her time to CPA less the first target's, seconds, so that duties fall together or
+    /// one after the other as declared. Absent: her time is drawn as the first target's is,
+    /// independently of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tcpa_after_first_s: Option<Distribution>,
 }
 
 impl Model {

@@ -14,5 +14,7 @@ mod named_sets;
 #[cfg(test)]
 mod promise;
 #[cfg(test)]
+mod rate;
+#[cfg(test)]
 mod traffic;
 mod worlds;

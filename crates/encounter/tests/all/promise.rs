@@ -157,7 +157,12 @@ fn further_targets_keep_their_promise_and_move_nothing() {
     let file = campaign("laboratory");
     let mut three = model(&file);
     three.stratum.truncate(1);
-    let also = |class| AlsoSpec { class, target_speed_mps: None, relative_course_deg: None };
+    let also = |class| AlsoSpec {
+        class,
+        target_speed_mps: None,
+        relative_course_deg: None,
+        tcpa_after_first_s: None,
+    };
     let further = [EncounterClass::CrossingStbd, EncounterClass::Overtaken];
     three.stratum[0].also = Some(further.map(also).to_vec());
     let three = Generator::new(&three, &run_settings(&file)).unwrap();
@@ -175,6 +180,46 @@ fn further_targets_keep_their_promise_and_move_nothing() {
         let goal_m = all.encounter.own.start.speed_mps * (2.0 * last_s + 300.0);
         assert!((all.encounter.own.route[0].position_m.x - goal_m).abs() < 1e-6);
     }
+}
+
+/// A declared arrival is her time to CPA less the first target's, with exactly its law, whatever
+/// class and speeds it goes with; the first target stays where it is.
+#[test]
+fn further_targets_arrive_as_declared() {
+    let file = campaign("laboratory");
+    let mut two = model(&file);
+    two.stratum.truncate(1);
+    two.stratum[0].also = Some(vec![AlsoSpec {
+        class: EncounterClass::CrossingStbd,
+        target_speed_mps: None,
+        relative_course_deg: None,
+        tcpa_after_first_s: Some(Distribution::Uniform([-20.0, 40.0])),
+    }]);
+    let generator = Generator::new(&two, &run_settings(&file)).unwrap();
+    let mut after: Vec<f64> = Vec::new();
+    for j in 0..2000 {
+        let drawn = generator.draw(Seed(9), 0, j).unwrap().encounter;
+        let one = laboratory().draw(Seed(9), 0, j).unwrap().encounter;
+        assert_eq!(drawn.targets[0], one.targets[0]);
+        assert_eq!(class_at_start(&drawn, 1, WIDE), Some(EncounterClass::CrossingStbd));
+        let cpa = nominal_cpa(&drawn);
+        after.push(cpa[1].tcpa_s.unwrap() - cpa[0].tcpa_s.unwrap());
+    }
+    after.sort_by(f64::total_cmp);
+    // Kolmogorov and Smirnov's distance at 1e-3 is 1.95 / sqrt(n)
+    let n = after.len() as f64;
+    let off = |(i, x): (usize, &f64)| ((x + 20.0) / 60.0 - (i as f64 + 0.5) / n).abs();
+    let distance = after.iter().enumerate().map(off).fold(0.0, f64::max);
+    assert!(distance < 1.95 / n.sqrt(), "{distance}");
+
+    let also = two.stratum[0].also.as_mut().unwrap();
+    also[0].tcpa_after_first_s = Some(Distribution::Uniform([-95.0, 0.0]));
+    let said = Generator::new(&two, &run_settings(&file)).unwrap_err().to_string();
+    assert!(said.contains("also.1.tcpa_after_first_s` reaches -95"), "{said}");
+    let also = two.stratum[0].also.as_mut().unwrap();
+    also[0].tcpa_after_first_s = Some(Distribution::Uniform([0.0, 30_000.0]));
+    let said = Generator::new(&two, &run_settings(&file)).unwrap_err().to_string();
+    assert!(said.contains("narrow tcpa_after_first_s"), "{said}");
 }
 
 /// Convention of the signed miss distance: own ship heads north at 8 m/s, the target comes south on
