@@ -12,8 +12,8 @@
 //!
 //! * In a stratum of a class, own speed, the target's length, the miss distance and the place of
 //!   the time to CPA in its range are given; target speed and relative course are drawn.
-//! * A further target may have an arrival of her own: then her time to CPA is given, and only speeds
-//!   and courses that put her within the start range at it are taken.
+//! * A further target may have an arrival of her own: then her time to CPA is given, and only
+//!   speeds and courses that put her within the start range at it are taken.
 //! * Beside a border, own speed, the target's length and the side are given; target speed,
 //!   relative course, miss distance and place of the time are drawn, because there miss distance
 //!   and angle belong together: not every distance goes with a target dead ahead that crosses.
