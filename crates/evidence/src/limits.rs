@@ -9,10 +9,12 @@ use serde::Serialize;
 /// By design.
 pub(crate) const LIMITS: [&str; 6] = [
     "Ships are rigid hulls in the plane: no heel, no squat, no shallow water or bank effects, no \
-     interaction between hulls in close passing; waves act as a first-order motion only.",
+     interaction between hulls in close passing; waves push and yaw a ship by random processes of \
+     first order and do not make her roll, pitch or heave.",
     "While two hulls are far apart the stored distance between them is a lower bound; the smallest \
      distance of a run is exact.",
-    "Targets keep to their intent; only those that run a planner answer to own ship.",
+    "Targets do what the plan means them to: some meet own ship as the rules ask or fail to, some \
+     run a planner, the others do not look at her. Nobody signals or speaks.",
     "The treaty has few numbers. Where the judge needs one, the rule set names it; another rule \
      set may judge the same track otherwise.",
     "Rates are those of the declared encounters. They become rates at sea only with an encounter \
@@ -30,7 +32,7 @@ pub(crate) struct Defect {
 }
 
 /// Known defects of the bench.
-pub(crate) const DEFECTS: [Defect; 4] = [
+pub(crate) const DEFECTS: [Defect; 6] = [
     Defect {
         id: "D1",
         text: "Exports (GeoJSON, MCAP, DNV) lay an encounter at a place in the North Sea; a \
@@ -58,6 +60,21 @@ pub(crate) const DEFECTS: [Defect; 4] = [
         text: "What a planner from outside takes from its machine (interpreter, packages, data \
                files that its command does not name) is not in the pack.",
         effect: "Running it again can fail, or differ, on a machine that has other ones.",
+    },
+    Defect {
+        id: "D5",
+        text: "How an encounter ends can hang on the step of integration where a planner's orders \
+               jump from beat to beat; bench/convergence.md has how often, for planners of the \
+               registry.",
+        effect: "One verdict of such a planner is one of several possible ones.",
+    },
+    Defect {
+        id: "D6",
+        text: "There are small wrong changes to the judges and the statistics that their tests do \
+               not notice; bench/mutants.md has those that were found, and how much was looked \
+               through.",
+        effect: "A mistake of that size could be in them unseen; the second judge and the gate's \
+                 self-test are the nets behind.",
     },
 ];
 
