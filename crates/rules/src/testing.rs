@@ -260,27 +260,41 @@ fn cut(mut track: ShipTrack, samples: usize) -> ShipTrack {
     track
 }
 
+/// Hull distances at whole seconds, and in tenths around the closest of them (elsewhere no interval
+/// between two seconds holds a smaller one than its ends).
 fn pair(own: &Script, target: &Script, seconds: usize) -> Pair {
     let radii_m = own.ship.hull.radius_m() + target.ship.hull.radius_m();
+    let centre_m = |step: usize| (own.states[step].0 - target.states[step].0).norm();
+    let hulls_m = |step: usize| outline_distance_m(&own.corners(step), &target.corners(step));
+    // a lower bound far away
+    let at_m = |step: usize| match (centre_m(step) - radii_m).max(0.0) {
+        far_m if far_m > 260.0 => far_m,
+        _ => hulls_m(step),
+    };
+    let whole_m: Vec<f64> = (0..=seconds).map(|k| at_m(k * STEPS)).collect();
+    let close_m = whole_m.iter().copied().fold(f64::INFINITY, f64::min) + 25.0;
     let far = f64::INFINITY;
     let mut minimum = PairMinimum { hull_m: far, hull_s: 0.0, centre_m: far, centre_s: 0.0 };
-    let mut hull_m = Vec::new();
+    let mut hull_m = Vec::with_capacity(seconds + 1);
     let mut interval_m = f64::INFINITY;
     for step in 0..=seconds * STEPS {
         let t_s = step as f64 / STEPS as f64;
-        let centre_m = (own.states[step].0 - target.states[step].0).norm();
-        let mut here_m = (centre_m - radii_m).max(0.0);
-        if here_m < minimum.hull_m.min(400.0) {
-            here_m = outline_distance_m(&own.corners(step), &target.corners(step));
-        }
-        if centre_m < minimum.centre_m {
-            (minimum.centre_m, minimum.centre_s) = (centre_m, t_s);
+        let (k, whole) = (step / STEPS, step % STEPS == 0);
+        let here_m = if whole {
+            whole_m[k]
+        } else if whole_m[k].min(whole_m[k + 1]) < close_m {
+            at_m(step)
+        } else {
+            f64::INFINITY
+        };
+        if centre_m(step) < minimum.centre_m {
+            (minimum.centre_m, minimum.centre_s) = (centre_m(step), t_s);
         }
         if here_m < minimum.hull_m {
             (minimum.hull_m, minimum.hull_s) = (here_m, t_s);
         }
         interval_m = interval_m.min(here_m);
-        if step % STEPS == 0 {
+        if whole {
             hull_m.push(interval_m);
             interval_m = f64::INFINITY;
         }

@@ -3,6 +3,7 @@
 mod dnv_labels;
 mod edge_cases;
 mod laws;
+mod pinned;
 mod planner_class;
 mod rule_13;
 mod rule_17;
