@@ -14,6 +14,7 @@ mod killed;
 mod lost_runs;
 mod negative_controls;
 mod newcomers_walk;
+mod no_room;
 mod refusals;
 mod same_bits;
 mod shards;

@@ -8,6 +8,7 @@ use crate::{Error, Plan, part};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -29,7 +30,12 @@ pub const JUDGED: &str = "judged-";
 /// What the names of folders with the parts of one shard begin with.
 pub const SHARD: &str = "shard-";
 
+/// How the names of files end that are not whole yet.
+const TEMPORARY: [&str; 2] = [".tmp", ".partial"];
+
+/// Also a file that a killed process had not given its name yet.
 fn is_ours(name: &str) -> bool {
+    let name = TEMPORARY.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);
     OURS.contains(&name) || name.starts_with(JUDGED) || name.starts_with(SHARD)
 }
 
@@ -64,7 +70,7 @@ impl Folder {
             return Err(Error::input(format!("{shown} is a file; --out wants a folder")));
         }
         let entries = this.entries()?;
-        if entries.is_empty() {
+        if entries.is_empty() || this.has_barely_begun(&entries)? {
             this.begin(plan)?;
             return Ok(Opened::Ready(this));
         }
@@ -91,6 +97,8 @@ impl Folder {
             )));
         }
         if path.join("manifest.json").exists() {
+            // a process that was killed between its last file and this left them
+            this.end()?;
             return Ok(Opened::Finished(this));
         }
         if !resume {
@@ -171,7 +179,20 @@ impl Folder {
     /// Removes what only a partial result needs.
     pub fn end(&self) -> Result<(), Error> {
         let state = self.path.join("state");
-        fs::remove_dir_all(&state).map_err(Error::io("remove", &state))
+        match fs::remove_dir_all(&state) {
+            Err(e) if e.kind() == ErrorKind::NotFound => Ok(()),
+            removed => removed.map_err(Error::io("remove", &state)),
+        }
+    }
+
+    /// Whether a process was stopped here between making the folder and writing its plan.
+    fn has_barely_begun(&self, entries: &[String]) -> Result<bool, Error> {
+        if entries != ["state"] || self.stored_plan()?.is_some() {
+            return Ok(false);
+        }
+        let within = Self::at(&self.path.join("state"), String::new()).entries()?;
+        let parts = Self::at(&self.parts(), String::new()).entries()?;
+        Ok(parts.is_empty() && within.iter().all(|name| name == "parts" || name == "plan.json.tmp"))
     }
 
     fn entries(&self) -> Result<Vec<String>, Error> {

@@ -71,7 +71,7 @@ impl Supervisor<'_> {
             self.stop_if_interrupted(folder)?;
             match ended.code() {
                 Some(0) if of_its_own => continue,
-                Some(code @ 2..=4) if of_its_own => return Err(self.engine_error(code)),
+                Some(code @ 2..=4) if of_its_own => return Err(engine_error(folder, code)),
                 _ => {}
             }
             let guilty = self.find_guilty(plan, folder)?;
@@ -196,22 +196,12 @@ impl Supervisor<'_> {
                 let how = format!("no answer within {limit_s} s");
                 Some((Outcome::PlannerHung, how + &said()))
             }
-            Some(code @ 2..=4) if of_its_own => return Err(self.engine_error(code)),
+            Some(code @ 2..=4) if of_its_own => return Err(engine_error(folder, code)),
             _ => {
                 let how = format!("it ended its process ({})", shown(ended));
                 Some((Outcome::PlannerCrashed, how + &said()))
             }
         })
-    }
-
-    /// The engine has said on standard error what is wrong; here it only gets its exit code.
-    fn engine_error(&self, code: i32) -> Error {
-        let what = "the engine process stopped, see the message above".to_owned();
-        match code {
-            2 => Error::Input(what),
-            3 => Error::Incomplete(what),
-            _ => Error::Fault(what),
-        }
     }
 
     fn stop_if_interrupted(&self, folder: &Folder) -> Result<(), Error> {
@@ -222,6 +212,20 @@ impl Supervisor<'_> {
             )));
         }
         Ok(())
+    }
+}
+
+/// The engine has said on standard error what is wrong; here it only gets its exit code.
+fn engine_error(folder: &Folder, code: i32) -> Error {
+    let what = "the engine process stopped, see the message above";
+    match code {
+        2 => Error::input(what),
+        3 => Error::Incomplete(format!(
+            "{what}; what was done is kept in {}; when it is mended, go on with the same command \
+             and --resume",
+            folder.path().display()
+        )),
+        _ => Error::Fault(what.to_owned()),
     }
 }
 

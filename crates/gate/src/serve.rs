@@ -97,7 +97,7 @@ pub fn serve(
         let (kind, message) = match error {
             Error::Input(message) | Error::Incomplete(message) => ("input", message.clone()),
             Error::Fault(message) => ("fault", message.clone()),
-            io @ Error::Io { .. } => ("fault", io.to_string()),
+            io @ (Error::Io { .. } | Error::Stage { .. }) => ("fault", io.to_string()),
         };
         say(&format!("x {kind} {}", message.replace('\n', " ")));
     }

@@ -33,11 +33,45 @@ pub(crate) fn code(ended: Result<Ended, Error>) -> ExitCode {
         Ok(Ended::Inconclusive) => INCOMPLETE,
         Err(error) => {
             eprintln!("seatrial: {error}");
-            match error {
-                Error::Input(_) => USAGE,
-                Error::Incomplete(_) => INCOMPLETE,
-                Error::Io { .. } | Error::Fault(_) => HARNESS,
-            }
+            of_error(&error)
         }
     })
+}
+
+/// A full disk leaves a result that can be taken up again; a place that cannot be written to is the
+/// user's to change.
+fn of_error(error: &Error) -> u8 {
+    match error {
+        Error::Input(_) => USAGE,
+        Error::Incomplete(_) => INCOMPLETE,
+        Error::Io { .. } | Error::Stage { .. } if error.is_no_room() => INCOMPLETE,
+        Error::Io { .. } | Error::Stage { .. } if error.is_wrong_place() => USAGE,
+        Error::Io { .. } | Error::Stage { .. } | Error::Fault(_) => HARNESS,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io;
+    use std::path::Path;
+
+    #[test]
+    fn the_code_of_a_failed_write_says_whose_fault_it_is() {
+        for (errno, expected) in [
+            (28, INCOMPLETE),  // ENOSPC
+            (122, INCOMPLETE), // EDQUOT
+            (27, INCOMPLETE),  // EFBIG
+            (30, USAGE),       // EROFS
+            (13, USAGE),       // EACCES
+            (20, USAGE),       // ENOTDIR
+            (5, HARNESS),      // EIO
+        ] {
+            let of_file = Error::io("write", Path::new("a"))(io::Error::from_raw_os_error(errno));
+            assert_eq!(of_error(&of_file), expected, "{of_file}");
+            let of_stage = Error::stage(io::Error::from_raw_os_error(errno));
+            assert_eq!(of_error(&of_stage), expected, "{of_stage}");
+            assert_eq!(of_error(&of_stage.kept_in(Path::new("b"), "go on")), expected);
+        }
+    }
 }

@@ -17,7 +17,7 @@ pub enum TableError {
         /// Why it did not work.
         source: io::Error,
     },
-    /// Writing a row group or the footer did not work; a full disk ends here.
+    /// A row group or the footer could not be encoded.
     #[error("write {}: {source}", path.display())]
     Write {
         /// Which file.

@@ -134,7 +134,8 @@ impl Job<'_> {
         };
         let mut stopwatch = Stopwatch::start();
         let shard = self.args.shard.unwrap_or((1, 1));
-        self.run_parts(&folder, shard)?;
+        let go_on = |e: Error| e.kept_in(folder.path(), "go on with the same command and --resume");
+        self.run_parts(&folder, shard).map_err(go_on)?;
         stopwatch.lap("run");
         if self.args.shard.is_some() {
             if !quiet {
@@ -143,7 +144,7 @@ impl Job<'_> {
             return Ok(None);
         }
         let how = finish::How { threads: self.threads, quiet, beside: self.several };
-        finish::finish(plan, self.registry, &folder, &mut stopwatch, how).map(Some)
+        finish::finish(plan, self.registry, &folder, &mut stopwatch, how).map(Some).map_err(go_on)
     }
 
     fn run_parts(&self, folder: &Folder, shard: (u64, u64)) -> Result<(), Error> {

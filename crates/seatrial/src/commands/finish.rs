@@ -37,9 +37,7 @@ struct TableSink(table::ParquetSink);
 
 impl RowSink for TableSink {
     fn push(&mut self, rows: Vec<RunRow>) -> Result<(), Error> {
-        rows.iter()
-            .try_for_each(|row| self.0.push(row))
-            .map_err(|e| Error::Fault(format!("failed to {e}")))
+        rows.iter().try_for_each(|row| self.0.push(row)).map_err(Error::stage)
     }
 }
 
@@ -63,9 +61,9 @@ pub(super) fn finish(
 ) -> Result<PlannerResult, Error> {
     let dir = folder.path();
     let sink = table::ParquetSink::create(dir.join("runs.parquet"));
-    let mut sink = TableSink(sink.map_err(|e| Error::Fault(format!("failed to {e}")))?);
+    let mut sink = TableSink(sink.map_err(Error::stage)?);
     let finished = campaign::finish(plan, folder, &mut sink)?;
-    sink.0.finish().map_err(|e| Error::Fault(format!("failed to {e}")))?;
+    sink.0.finish().map_err(Error::stage)?;
     stopwatch.lap("table");
     let mut rendering = Rendering::new(
         plan,
@@ -76,11 +74,11 @@ pub(super) fn finish(
     )?;
     rendering.card.beside = how.beside;
     files::write(&dir.join("summary.json"), rendering.summary.to_json().as_bytes())?;
-    report::write(dir, &rendering.input()).map_err(|e| Error::Fault(format!("failed to {e}")))?;
+    report::write(dir, &rendering.input()).map_err(Error::stage)?;
     stopwatch.lap("report");
-    manifest::write(dir, plan, &finished)?;
     let timing = stopwatch.json(how.threads, finished.encounters);
     files::write(&dir.join("timing.json"), timing.as_bytes())?;
+    manifest::write(dir, plan, &finished)?;
     folder.end()?;
     if !how.quiet {
         say_text!("{}", headline::table(&rendering.summary, headline::terminal_columns()));
@@ -136,7 +134,7 @@ pub(super) fn comparison(
             cost: costs.iter().find(|c| c.planner == r.card.planner).map(|c| &c.cost),
         })
         .collect();
-    report::write_comparison(out, &columns).map_err(|e| Error::Fault(format!("failed to {e}")))?;
+    report::write_comparison(out, &columns).map_err(Error::stage)?;
     if !quiet {
         say!("comparison: {}", out.join("comparison.html").display());
     }

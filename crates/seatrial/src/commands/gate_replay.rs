@@ -48,7 +48,7 @@ pub(super) fn run(folder: &Path, id: &str, registry: Registry) -> Result<Ended, 
         fs::create_dir_all(&pictures).map_err(Error::io("make", &pictures))?;
         let picture = pictures.join(format!("{}-{arm}.svg", id.file_stem()));
         let case = crate::rendering::case(&side.plan, run);
-        report::draw_case(&picture, &case).map_err(|e| Error::Fault(format!("failed to {e}")))?;
+        report::draw_case(&picture, &case).map_err(Error::stage)?;
         say!("  picture: {}", picture.display());
     }
     Ok(Ended::Done)

@@ -65,7 +65,7 @@ impl Job<'_> {
     /// Another rule set: a second table and summary.
     fn again(&self, rules: &RulesChoice) -> Result<Ended, Error> {
         let out = self.out(&rules.rule_set()?)?;
-        let failed = |e: table::TableError| Error::Fault(format!("failed to {e}"));
+        let failed = |e: table::TableError| Error::stage(e);
         let mut table = table::ParquetSink::create(out.join("runs.parquet")).map_err(failed)?;
         let summary = self.run(rules, vec![rules.rule_set()?], &mut |rows| {
             rows.iter().try_for_each(|row| table.push(row)).map_err(failed)

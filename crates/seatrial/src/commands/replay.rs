@@ -47,7 +47,7 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
     fs::create_dir_all(&pictures).map_err(Error::io("make", &pictures))?;
     let picture = pictures.join(format!("{}.svg", id.file_stem()));
     let case = crate::rendering::case(&plan, run);
-    report::draw_case(&picture, &case).map_err(|e| Error::Fault(format!("failed to {e}")))?;
+    report::draw_case(&picture, &case).map_err(Error::stage)?;
     say!("  picture: {}", picture.display());
     if case.row.digest == stored.digest {
         say!("  the same bits as stored");

@@ -57,13 +57,9 @@ pub(super) fn merge(
     campaign::engine::quiet_planner_panics();
     let mut stopwatch = Stopwatch::start();
     let folder = Folder::merged(dir, &plan, parts)?;
-    finish::finish(
-        &plan,
-        &registry,
-        &folder,
-        &mut stopwatch,
-        finish::How { threads: 1, quiet, beside: false },
-    )?;
+    let how = finish::How { threads: 1, quiet, beside: false };
+    finish::finish(&plan, &registry, &folder, &mut stopwatch, how)
+        .map_err(|e| e.kept_in(dir, "merge again"))?;
     Ok(Ended::Done)
 }
 
