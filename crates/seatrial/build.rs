@@ -26,7 +26,8 @@ fn main() {
     let rustc = output(&env::var("RUSTC").unwrap_or("rustc".into()), &["--version"], &root);
     let set = |key: &str, value: &str| println!("cargo::rustc-env=SEATRIAL_{key}={value}");
     set("GIT_COMMIT", &output("git", &["rev-parse", "HEAD"], &root).unwrap_or("unknown".into()));
-    let status = ["status", "--porcelain", "--untracked-files=no", "--"];
+    // without the lock git does not refresh its index, which is watched below
+    let status = ["--no-optional-locks", "status", "--porcelain", "--untracked-files=no", "--"];
     let changed = output("git", &[&status[..], &SOURCES[..]].concat(), &root);
     set("GIT_CLEAN", if changed.as_deref() == Some("") { "true" } else { "false" });
     let rustc = rustc.unwrap_or("unknown".into());

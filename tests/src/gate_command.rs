@@ -62,6 +62,19 @@ fn a_planner_passes_against_itself_and_a_broken_one_fails_with_its_replay() {
     assert!(said.contains(&format!("gate --replay {failure} --out worse")), "{said}");
     let replayed = run_ok(folder, &format!("gate --replay {failure} --out worse"));
     assert!(replayed.contains("candidate hold-course") && replayed.contains("picture"));
+
+    let hurried = fs::read_to_string(folder.join("small.toml")).unwrap();
+    let hurried = hurried.replace("planner_hang_limit_s = 10.0", "planner_hang_limit_s = 0.3");
+    fs::write(folder.join("hurried.toml"), hurried).unwrap();
+    let line = "gate --campaign hurried.toml --baseline zhuang --candidate spins --series y \
+                --candidate-option share=0.1 --out slow --quiet";
+    let said = run(folder, line).stdout;
+    let said = String::from_utf8_lossy(&said);
+    assert!(said.contains("a limit on the wall clock ended"), "{said}");
+    let page = fs::read_to_string(folder.join("slow/summary.md")).unwrap();
+    assert!(page.contains("**a limit on the wall clock ended"), "{page}");
+    let ended = &json(folder.join("slow/gate.json"))["ended_by_wall_clock"];
+    assert!(ended["candidate"].as_u64() > Some(0) && ended["baseline"] == 0, "{ended}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What a gate leaves behind: `gate.json`.
 
+use crate::run::Clocked;
 use crate::serve::Identity;
 use crate::{Event, FreshKey};
 use campaign::Plan;
@@ -40,6 +41,8 @@ pub struct GateReport {
     pub corpus: CorpusResult,
     /// Pairs that were run and differ in any bit, also behind the look that decided.
     pub different: u64,
+    /// Runs that the wall clock ended, which make the verdict one of this machine.
+    pub ended_by_wall_clock: Clocked,
     /// The worst encounters that only the candidate fails, worst first.
     pub new_failures: Vec<NewFailure>,
 }

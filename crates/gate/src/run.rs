@@ -8,6 +8,7 @@ use crate::Event;
 use crate::arm::{self, Arm, ArmRow};
 use crate::report::NewFailure;
 use campaign::{Error, Plan};
+use serde::{Deserialize, Serialize};
 use stats::{CorpusResult, Gate, GatePlan, GateResult, GateVerdict, Observation, PairRow};
 
 /// New failures that are kept for each event.
@@ -50,8 +51,40 @@ pub struct Paired {
     pub result: GateResult,
     /// Pairs whose two runs differ in any bit.
     pub different: u64,
+    /// Runs that the wall clock ended.
+    pub clocked: Clocked,
     /// The worst encounters that only the candidate fails, worst first.
     pub new_failures: Vec<NewFailure>,
+}
+
+/// Runs that a limit on the wall clock ended, those behind the look that decided too: another
+/// machine might not end them, and its counts would then be others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Clocked {
+    /// Of the baseline.
+    pub baseline: u64,
+    /// Of the candidate.
+    pub candidate: u64,
+    /// Of all older planners.
+    pub ratchets: u64,
+}
+
+impl Clocked {
+    /// What must be said beside the verdict, if anything.
+    pub fn sentence(self) -> Option<String> {
+        let Self { baseline, candidate, ratchets } = self;
+        (baseline + candidate + ratchets > 0).then(|| {
+            format!(
+                "a limit on the wall clock ended {candidate} runs of the candidate, {baseline} of \
+                 the baseline and {ratchets} of older planners: another machine might count others"
+            )
+        })
+    }
+}
+
+/// How many of these rows the wall clock ended.
+fn clocked(rows: &[ArmRow]) -> u64 {
+    rows.iter().filter(|row| row.outcome.is_wall_clock()).count() as u64
 }
 
 impl PairedRun<'_> {
@@ -61,6 +94,7 @@ impl PairedRun<'_> {
         let mut gate = Gate::new(self.gate.clone(), self.corpus.clone()).map_err(input)?;
         let mut worst = Worst::default();
         let mut different = 0;
+        let mut ended = Clocked::default();
         while gate.verdict().is_none() {
             let from = gate.next_id();
             if (self.stop)() {
@@ -76,6 +110,9 @@ impl PairedRun<'_> {
             for arm in &mut self.ratchets {
                 ratchets.push(arm.rows(&ids)?);
             }
+            ended.baseline += clocked(&baseline);
+            ended.candidate += clocked(&candidate);
+            ended.ratchets += ratchets.iter().map(|rows| clocked(rows)).sum::<u64>();
             let mut rows = Vec::with_capacity(ids.len());
             for (i, &id) in ids.iter().enumerate() {
                 let others = ratchets.iter().map(|rows| &rows[i]);
@@ -87,7 +124,7 @@ impl PairedRun<'_> {
             (self.progress)(gate.next_id());
         }
         let result = gate.result().clone();
-        Ok(Paired { result, different, new_failures: worst.list() })
+        Ok(Paired { result, different, clocked: ended, new_failures: worst.list() })
     }
 
     fn pair<'r>(

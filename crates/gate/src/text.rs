@@ -153,6 +153,9 @@ pub fn terminal(report: &GateReport, folder: &str) -> String {
     for arm in result.ratchets.iter().filter(|arm| arm.passed_at.is_none()) {
         line(format!("  ratchet {} / {}: not shown", arm.arm, arm.metric));
     }
+    if let Some(sentence) = report.ended_by_wall_clock.sentence() {
+        line(format!("  {sentence}"));
+    }
     if !report.new_failures.is_empty() {
         line("  worst new failures, each with the command that replays it:".to_owned());
     }
@@ -208,6 +211,9 @@ pub fn markdown(report: &GateReport, folder: &str) -> String {
             metric.difference.upper,
             metric_word(metric)
         ));
+    }
+    if let Some(sentence) = report.ended_by_wall_clock.sentence() {
+        put(format!("\n**{sentence}.**"));
     }
     if !report.new_failures.is_empty() {
         put("\nWorst new failures:\n".to_owned());

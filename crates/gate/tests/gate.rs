@@ -126,6 +126,33 @@ fn rows_in_completion_order_are_refused() {
     assert!(matches!(error, Error::Fault(_)), "{error}");
 }
 
+/// Runs that the wall clock ended are counted by arm: their verdict is one of this machine.
+#[test]
+fn runs_that_the_wall_clock_ended_are_counted_for_the_planner_that_was_ended() {
+    struct Slow<'a>(InProcess<'a>, u64);
+    impl Arm for Slow<'_> {
+        fn rows(&mut self, ids: &[u64]) -> Result<Vec<ArmRow>, Error> {
+            let mut rows = self.0.rows(ids)?;
+            for row in rows.iter_mut().filter(|row| row.id % self.1 == 0) {
+                (row.outcome, row.unknown) = (Outcome::PlannerHung, true);
+            }
+            Ok(rows)
+        }
+    }
+    let registry = planners::registry();
+    let spec = spec(70);
+    let plan = plan(&spec, &registry, "hold-course", 3);
+    let shop = Shop::new(&plan, &registry).unwrap();
+    let (one, two) = (beats(1), beats(1));
+    let mut a = Slow(InProcess::new(&shop, &plan, &one).unwrap(), 1000);
+    let mut b = Slow(InProcess::new(&shop, &plan, &two).unwrap(), 10);
+    let paired = self_test(&spec, &plan.strata).compare(&plan, &mut a, &mut b).unwrap();
+    let said = paired.clocked.sentence().unwrap();
+    assert_eq!((paired.clocked.baseline, paired.clocked.candidate), (1, 7), "{said}");
+    assert!(said.contains("7 runs of the candidate, 1 of the baseline"), "{said}");
+    assert_eq!(gate::run::Clocked::default().sentence(), None);
+}
+
 /// The gate of the repository is feasible, and a cap that can never show a margin is refused with
 /// the cap that it needs.
 #[test]

@@ -190,6 +190,7 @@ impl Job<'_> {
             .spec
             .changes(&PlannerSpec { name: candidate.to_owned(), options: options.clone() });
         let draft = arms.plan(candidate, options, 0)?;
+        gate::fresh::refuse_weights(&draft)?;
         let campaign_hash = gate::fresh::campaign_hash(&draft, &self.spec.table)?;
         let outside = gate_arms::outside_bytes(candidate)?;
         let hash = gate::fresh::candidate_hash(&draft, outside.as_deref())?;
@@ -292,6 +293,7 @@ impl Job<'_> {
             result: paired.result,
             corpus,
             different: paired.different,
+            ended_by_wall_clock: paired.clocked,
             new_failures: paired.new_failures,
         }
     }

@@ -3,6 +3,7 @@
 use campaign::Error;
 use std::ffi::OsStr;
 use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -51,6 +52,11 @@ pub(super) fn commit(revision: &str) -> Result<String, Error> {
 
 /// Builds into the shared target folder, where cargo puts the binary in the place of the present
 /// one; that one is put back.
+///
+/// Cargo names what it compiles after the place of a package in its workspace, which is the same in
+/// both trees, and tells old from new by the times of files: the next build of the present sources
+/// could take crates of REV for its own. A wrapper of the compiler of workspace members is part of
+/// those names, so that each commit has its own; dependencies know no wrapper and are shared.
 fn build_tree(tree: &Path, target: &Path, revision: &str, kept: &Path) -> Result<(), Error> {
     // as `cargo xtask` builds, so that dependencies are compiled once; older revisions had
     // `release`
@@ -66,11 +72,13 @@ fn build_tree(tree: &Path, target: &Path, revision: &str, kept: &Path) -> Result
     if was_there {
         fs::copy(&place, &present).map_err(Error::io("copy", &place))?;
     }
+    let wrapper = wrapper(kept)?;
     let built = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--locked", "--quiet", "--package", "seatrial"])
         .args(settings)
         .current_dir(tree)
         .env("CARGO_TARGET_DIR", target)
+        .env("RUSTC_WORKSPACE_WRAPPER", &wrapper)
         .status();
     let ended = match built {
         // by rename, so that a binary under this name is always whole
@@ -84,10 +92,20 @@ fn build_tree(tree: &Path, target: &Path, revision: &str, kept: &Path) -> Result
         Ok(status) => Err(Error::input(format!("git:{revision} does not build ({status})"))),
         Err(error) => Err(Error::input(format!("failed to start cargo: {error}"))),
     };
+    drop(fs::remove_file(&wrapper));
     if was_there {
         fs::rename(&present, &place).map_err(Error::io("put back", &place))?;
     }
     ended
+}
+
+/// A program of a name of its own that runs the compiler as it is.
+fn wrapper(kept: &Path) -> Result<PathBuf, Error> {
+    let path = kept.with_extension("rustc");
+    fs::write(&path, "#!/bin/sh\nexec \"$@\"\n").map_err(Error::io("write", &path))?;
+    let executable = fs::Permissions::from_mode(0o755);
+    fs::set_permissions(&path, executable).map_err(Error::io("make executable", &path))?;
+    path.canonicalize().map_err(Error::io("find", &path))
 }
 
 /// What git says; an error is the user's to mend.
