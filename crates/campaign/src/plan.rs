@@ -169,6 +169,7 @@ impl Source {
         }
         match (&file.model, &file.set) {
             (Some(model), _) => {
+                refuse_weights(file, model)?;
                 Generator::new(model, &settings).map_err(wrong)?;
                 Ok(Self::Model(Box::new(model.clone())))
             }
@@ -178,6 +179,19 @@ impl Source {
             (None, None) => Err(Error::input(format!("campaign {} has no source", file.name))),
         }
     }
+}
+
+/// A summary counts every encounter once, with bounds that hold for counts: of a weighted draw they
+/// would be rates of no traffic.
+fn refuse_weights(file: &CampaignFile, model: &Model) -> Result<(), Error> {
+    if model.encounter_rate.is_none() {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "campaign {}: model.encounter_rate draws encounters with weights, which the summary and its \
+         bounds do not carry yet; take the table out: each encounter then counts once",
+        file.name
+    )))
 }
 
 /// A campaign resolved for one planner.
