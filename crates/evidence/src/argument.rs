@@ -124,6 +124,8 @@ const BOX: f64 = 180.0;
 const LEAF_TOP: f64 = 296.0;
 const LEAF_STEP: f64 = 74.0;
 const LEAF_LETTERS: usize = 24;
+/// A goal with more leaves than this has them in several columns, so that the tree fits a page.
+const LEAVES_MAX: usize = 8;
 
 /// The tree as a whole SVG document.
 pub(crate) fn svg(nodes: &[Node]) -> String {
@@ -131,8 +133,9 @@ pub(crate) fn svg(nodes: &[Node]) -> String {
     let leaves = |goal: &Node| -> Vec<&Node> {
         nodes.iter().filter(|n| n.parent.as_deref() == Some(goal.id.as_str())).collect()
     };
-    let deepest = goals.iter().map(|goal| leaves(goal).len()).max().unwrap_or(0);
-    let width = COLUMN * goals.len() as f64 + 20.0;
+    let columns = |goal: &Node| leaves(goal).len().div_ceil(LEAVES_MAX).max(1);
+    let deepest = goals.iter().map(|goal| leaves(goal).len().min(LEAVES_MAX)).max().unwrap_or(0);
+    let width = COLUMN * goals.iter().map(|goal| columns(goal)).sum::<usize>() as f64 + 20.0;
     let height = LEAF_TOP + LEAF_STEP * deepest as f64 + 10.0;
     let middle = width / 2.0;
     let mut art = Art::default();
@@ -148,17 +151,23 @@ pub(crate) fn svg(nodes: &[Node]) -> String {
     if let Some(top) = nodes.iter().find(|n| n.id == "G0") {
         art.node(top, middle, 46.0);
     }
-    for (i, goal) in goals.iter().enumerate() {
-        let x = 10.0 + COLUMN * (i as f64 + 0.5);
+    let mut x = 10.0 + COLUMN * 0.5;
+    for goal in goals {
         art.line(middle, 154.0, x, 214.0);
-        let below = leaves(goal);
-        art.line(x - 84.0, 260.0, x - 84.0, LEAF_TOP + LEAF_STEP * (below.len() as f64 - 0.5));
         art.node(goal, x, 240.0);
-        for (k, leaf) in below.iter().enumerate() {
-            let y = LEAF_TOP + LEAF_STEP * (k as f64 + 0.4);
-            art.line(x - 84.0, y, x - 60.0, y);
-            art.node(leaf, x, y);
+        for (i, below) in leaves(goal).chunks(LEAVES_MAX).enumerate() {
+            let x = x + COLUMN * i as f64;
+            // further columns hang on a line from the first one's stem
+            let top = if i == 0 { 260.0 } else { LEAF_TOP - 14.0 };
+            art.line(x - 84.0 - if i == 0 { 0.0 } else { COLUMN }, top, x - 84.0, top);
+            art.line(x - 84.0, top, x - 84.0, LEAF_TOP + LEAF_STEP * (below.len() as f64 - 0.6));
+            for (k, leaf) in below.iter().enumerate() {
+                let y = LEAF_TOP + LEAF_STEP * (k as f64 + 0.4);
+                art.line(x - 84.0, y, x - 60.0, y);
+                art.node(leaf, x, y);
+            }
         }
+        x += COLUMN * columns(goal) as f64;
     }
     if let Some(strategy) = nodes.iter().find(|n| n.id == "S1") {
         art.node(strategy, middle, 134.0);
