@@ -188,8 +188,8 @@ fn refuse_weights(file: &CampaignFile, model: &Model) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::input(format!(
-        "campaign {}: model.encounter_rate draws encounters with weights, which the summary and its \
-         bounds do not carry yet; take the table out: each encounter then counts once",
+        "campaign {}: model.encounter_rate draws encounters with weights, which the summary and \
+         its bounds do not carry yet; take the table out: each encounter then counts once",
         file.name
     )))
 }
