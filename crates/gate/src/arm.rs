@@ -3,7 +3,6 @@
 //! Place i has stratum i mod S and number i div S, so that the places cycle through all strata in
 //! a fixed pattern. Rows come back in the order of the places, whatever the order of completion.
 
-use crate::fresh;
 use campaign::worker::{Shop, Worker};
 use campaign::{Error, Plan};
 use record::{Check, Digest, DistanceKind, EncounterId, Outcome, RunRow, Status};
@@ -135,12 +134,9 @@ impl<'a> InProcess<'a> {
                         let Some(&id) = ids.get(index) else { break };
                         tell(Step::Begins(id));
                         let (stratum, j) = place(plan, id);
-                        let run = worker.run(stratum, j, beat).and_then(|run| {
-                            fresh::crude(&run.row.id, run.row.weight).map(|()| run.row)
-                        });
-                        match run {
-                            Ok(row) => {
-                                let row = ArmRow::of(id, &row, plan.run.distance);
+                        match worker.run(stratum, j, beat) {
+                            Ok(run) => {
+                                let row = ArmRow::of(id, &run.row, plan.run.distance);
                                 tell(Step::Ended(&row));
                                 *lock(&done[index]) = Some(row);
                             }

@@ -7,7 +7,6 @@
 
 use crate::spec::GateTable;
 use campaign::{Error, Plan};
-use record::EncounterId;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -43,28 +42,6 @@ impl fmt::Display for FreshKey {
 /// planner, the seed or the build.
 pub fn encounter_model(plan: &Plan) -> Result<String, Error> {
     hash(&serde_json::json!({ "source": json(&plan.source)?, "run": json(&plan.run)? }))
-}
-
-/// Refuses a plan whose encounters carry weights: the rule counts encounters, and of a weighted
-/// draw the counts are no rates of the traffic. One encounter of each stratum is drawn.
-pub fn refuse_weights(plan: &Plan) -> Result<(), Error> {
-    let source = plan.encounters_source()?;
-    for stratum in 0..plan.strata.len() as u32 {
-        let drawn = source.draw(stratum, 0)?.encounter;
-        crude(&drawn.id, drawn.weight)?;
-    }
-    Ok(())
-}
-
-/// Refuses an encounter that does not count as one.
-pub(crate) fn crude(id: &EncounterId, weight: f64) -> Result<(), Error> {
-    if weight.to_bits() == 1_f64.to_bits() {
-        return Ok(());
-    }
-    Err(Error::input(format!(
-        "encounter {id} has weight {weight}: the gate counts encounters, so it needs a campaign \
-         that draws each with weight 1; take the weighting out of this campaign's model"
-    )))
 }
 
 /// Hash of a gate's campaign: encounters, rule set, and all that is declared but the cap. A larger
@@ -104,17 +81,6 @@ fn hash(value: &serde_json::Value) -> Result<String, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_encounter_that_counts_for_more_or_less_than_one_is_refused() {
-        let id = EncounterId::new("head_on", 7);
-        assert!(crude(&id, 1.0).is_ok());
-        for weight in [0.999_999, 2.0, 0.0, f64::NAN] {
-            let refused = crude(&id, weight).unwrap_err();
-            assert!(matches!(refused, Error::Input(_)), "{refused}");
-            assert!(refused.to_string().contains("head_on/000007 has weight"), "{refused}");
-        }
-    }
 
     /// The border between the parts is part of the key.
     #[test]

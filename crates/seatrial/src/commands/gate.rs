@@ -190,7 +190,6 @@ impl Job<'_> {
             .spec
             .changes(&PlannerSpec { name: candidate.to_owned(), options: options.clone() });
         let draft = arms.plan(candidate, options, 0)?;
-        gate::fresh::refuse_weights(&draft)?;
         let campaign_hash = gate::fresh::campaign_hash(&draft, &self.spec.table)?;
         let outside = gate_arms::outside_bytes(candidate)?;
         let hash = gate::fresh::candidate_hash(&draft, outside.as_deref())?;
