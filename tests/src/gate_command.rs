@@ -67,7 +67,7 @@ fn a_planner_passes_against_itself_and_a_broken_one_fails_with_its_replay() {
     let hurried = hurried.replace("planner_hang_limit_s = 10.0", "planner_hang_limit_s = 0.3");
     fs::write(folder.join("hurried.toml"), hurried).unwrap();
     let line = "gate --campaign hurried.toml --baseline zhuang --candidate spins --series y \
-                --candidate-option share=0.1 --out slow --quiet";
+                --candidate-option share=0.02 --out slow --quiet";
     let said = run(folder, line).stdout;
     let said = String::from_utf8_lossy(&said);
     assert!(said.contains("a limit on the wall clock ended"), "{said}");

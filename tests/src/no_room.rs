@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 const CAMPAIGN: &str =
-    "campaign laboratory --encounters 600 --threads 2 --quiet --planner hold-course";
+    "campaign laboratory --encounters 250 --threads 2 --quiet --planner hold-course";
 
 /// The binary, with files of at most `kib`.
 fn run_in_kib(folder: &Path, kib: u32, line: &str) -> Output {
@@ -28,7 +28,7 @@ fn a_full_disk_says_what_is_kept_and_how_to_go_on() {
     let folder = tempfile::tempdir().unwrap();
     run_ok(folder.path(), &format!("{CAMPAIGN} --out straight"));
     // no part finds room; then the parts do, and the table does not
-    for (kib, out, file) in [(60, "parts", ".part"), (400, "table", "runs.parquet")] {
+    for (kib, out, file) in [(30, "parts", ".part"), (200, "table", "runs.parquet")] {
         let line = format!("{CAMPAIGN} --out {out}");
         let ended = run_in_kib(folder.path(), kib, &line);
         let said = String::from_utf8_lossy(&ended.stderr);
