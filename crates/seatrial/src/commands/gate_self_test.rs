@@ -33,7 +33,6 @@ pub(super) fn run(args: &GateArgs, mut spec: GateSpec, registry: Registry) -> Re
     let arms = Arms::new(&spec, registry, threads)?.with(&wanted)?;
     let plan = |name: &str, seed: u64| arms.plan(name, toml::Table::new(), seed);
     let draft = plan(baseline, 0)?;
-    gate::fresh::refuse_weights(&draft)?;
     let campaign = gate::fresh::campaign_hash(&draft, &spec.table)?;
     let seed = FreshKey::new(&campaign, "self-test").seed();
     let mine = plan(baseline, seed)?;
