@@ -9,6 +9,7 @@ use crate::runs::TurnRun;
 use crate::signal::OwnSignals;
 use geom::{EncounterClass, Vec2, angle, math};
 use record::{LastInstant, LastMinute, Role, StageClock};
+use std::ops::Range;
 
 /// What a check may look at.
 #[derive(Debug)]
@@ -109,6 +110,26 @@ impl<'a> Case<'a> {
             LastInstant::At(t_s) | LastInstant::Indicative(t_s) => t_s,
         };
         Some(last_s.max(self.clock_s()))
+    }
+
+    /// Another target to which own ship owes giving way at every sample of a range (the first of
+    /// them, where they take turns).
+    pub(crate) fn gives_way_throughout(&self, mut range: Range<usize>) -> Option<usize> {
+        let owed = |k: usize| {
+            let here = |other: &&PairLife<'_>| {
+                let until = other.passed.map_or(other.actual.len() - 1, |passed| passed.k);
+                other.target != self.life.target
+                    && other.in_sight_by(k)
+                    && other.onset.is_some_and(|onset| {
+                        let role = role_of(onset.decides);
+                        let gives_way = matches!(role, Role::GiveWay | Role::Both);
+                        gives_way && !onset.own_stopped && (onset.k..=until).contains(&k)
+                    })
+            };
+            self.others.iter().find(here).map(|other| other.target)
+        };
+        let first = owed(range.start);
+        first.filter(|_| range.all(|k| owed(k).is_some()))
     }
 
     /// Range between reference points at a time, metres.

@@ -5,9 +5,10 @@
 //! the duty of keeping clear of the overtaken vessel until she is finally past and clear."
 //! Reading: either side is allowed. 13(a) fails with the passing distance. 13(d) fails when,
 //! before release, own ship crosses the other's centre line close ahead of her bow, comes close on
-//! her bow while the range falls, turns towards her line from forward of the sector of 13(b) so
-//! that a close pass is predicted, or forces the other to alter: she then leaves her own nominal
-//! track by 10 degrees or a quarter of her speed, which only a target that minds own ship can do.
+//! her bow while the range falls (which fails 13(a) too, and says more), turns towards her line from
+//! forward of the sector of 13(b) so that a close pass is predicted that would have been a wider
+//! one, or forces the other to alter: she then leaves her own nominal track by 10 degrees or a
+//! quarter of her speed, which only a target that minds own ship can do.
 //! With several targets it counts where no other ship was nearer to her. Drawing ahead on a steady
 //! course is no breach. A run that ends before release cannot show that 13(d) was kept.
 //! Source: rules specification, section 8; score after Hagen 2023, equations 25 and 26.
@@ -35,7 +36,13 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
     if case.class != EncounterClass::Overtaking || case.restricted {
         return not_applicable(case, Check::R13);
     }
-    let breach = keeps_out_of_the_way(case).or_else(|| stays_clear(case));
+    let until = case.released_s.map_or(case.life.actual.len() - 1, |t_s| case.life.sample(t_s));
+    let from = case.onset.k.min(until);
+    let breach = comes_close_on_her_bow(case, from, until)
+        .or_else(|| keeps_out_of_the_way(case))
+        .or_else(|| crosses_ahead(case, from, until))
+        .or_else(|| turns_in(case, until))
+        .or_else(|| forces_her(case, from, until));
     let (status, detail) = match &breach {
         Some(breach) => (Status::Fail, breach.detail),
         None if case.released_s.is_none() => (Status::Inconclusive, "NOT-RELEASED"),
@@ -68,41 +75,37 @@ fn keeps_out_of_the_way(case: &Case<'_>) -> Option<Breach> {
     })
 }
 
-/// 13(d).
-fn stays_clear(case: &Case<'_>) -> Option<Breach> {
+/// 13(d): the closest that she came there, of the samples before release.
+fn comes_close_on_her_bow(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
     let life = case.life;
-    let last = life.actual.len() - 1;
-    let until = case.released_s.map_or(last, |t_s| life.sample(t_s));
-    let from = case.onset.k.min(until);
-    let d = &case.rules().distance;
-    if let Some(crossing) = crossed_ahead(case, Line::Centreline, from, until) {
-        let ahead_m = crossing.ahead_m;
-        return Some(Breach {
-            detail: "FAIL-13D-AHEAD",
-            t_s: crossing.t_s,
-            what: format!("own ship, overtaking, crossed {ahead_m:.0} m ahead of her bow"),
-            margin_m: ahead_m - d.r_pref_m,
-        });
-    }
-    let on_the_bow = (from..=until).find(|&k| {
-        life.distance_at_m(k) < d.r_min_m
-            && life.actual.closing(k)
-            && cos_alpha(case, k) > math::cos(ON_THE_BOW_RAD)
-    });
-    if let Some(k) = on_the_bow {
-        let distance_m = life.distance_at_m(k);
-        return Some(Breach {
-            detail: "FAIL-13D-BOW",
-            t_s: life.time_s(k),
-            what: format!("own ship, overtaking, closed to {distance_m:.0} m on her bow"),
-            margin_m: distance_m - d.r_min_m,
-        });
-    }
-    turns_in(case, until).or_else(|| forces_her(case, from, until))
+    let least_m = case.rules().distance.r_min_m;
+    let k = (from..=until)
+        .filter(|&k| life.distance_at_m(k) < least_m && life.actual.closing(k))
+        .filter(|&k| cos_alpha(case, k) > math::cos(ON_THE_BOW_RAD))
+        .min_by(|&a, &b| life.distance_at_m(a).total_cmp(&life.distance_at_m(b)))?;
+    let distance_m = life.distance_at_m(k);
+    Some(Breach {
+        detail: "FAIL-13D-BOW",
+        t_s: life.time_s(k),
+        what: format!("own ship, overtaking, closed to {distance_m:.0} m on her bow"),
+        margin_m: distance_m - least_m,
+    })
 }
 
-/// A substantial turn towards the other's line, from forward of the overtaking sector, into a
-/// close pass. It is sought to release, past the window of action.
+/// 13(d): across her bow.
+fn crosses_ahead(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
+    let crossing = crossed_ahead(case, Line::Centreline, from, until)?;
+    let ahead_m = crossing.ahead_m;
+    Some(Breach {
+        detail: "FAIL-13D-AHEAD",
+        t_s: crossing.t_s,
+        what: format!("own ship, overtaking, crossed {ahead_m:.0} m ahead of her bow"),
+        margin_m: ahead_m - case.rules().distance.r_pref_m,
+    })
+}
+
+/// 13(d): a substantial turn towards the other's line, from forward of the overtaking sector, by
+/// which a pass becomes close or closer. It is sought to release, past the window of action.
 fn turns_in(case: &Case<'_>, until: usize) -> Option<Breach> {
     let life = case.life;
     let d = &case.rules().distance;
@@ -116,6 +119,7 @@ fn turns_in(case: &Case<'_>, until: usize) -> Option<Breach> {
             && run.size_rad * seen.alpha_rad < 0.0
             && life.actual.tcpa_s(run.end).is_some_and(|t| t > 0.0)
             && life.actual.dcpa_below(run.end, d.r_min_m)
+            && life.actual.dcpa_m(run.end) < life.actual.dcpa_m(run.start.min(last))
     })?;
     let dcpa_m = life.actual.dcpa_m(towards.end);
     let altered = Case::altered(towards.size_rad);
@@ -127,7 +131,7 @@ fn turns_in(case: &Case<'_>, until: usize) -> Option<Breach> {
     })
 }
 
-/// The other was forced to alter: first held departure from her nominal track in the samples.
+/// 13(d): the other was forced to alter: first held departure from her nominal track in the samples.
 fn forces_her(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
     let life = case.life;
     let m = &case.rules().manoeuvre;

@@ -7,7 +7,8 @@
 //! that at its entry; from 2 degrees or 7 % it is a warning. A departure counts when it is held.
 //! Heading is a mean because a yaw of 1 degree rms would warn in 98 % of held courses.
 //! A change on the planned route is no departure; one forced by giving way to a third ship is
-//! excused.
+//! excused, and where she owed that all the time she had nothing to hold: the rule was not put to
+//! the test (section 12, vacuity).
 //! Source: rules specification, sections 9 (R17) and 11; score after Hagen 2023, equations 15 to
 //! 24.
 
@@ -39,6 +40,16 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         return not_applicable(case, Check::R17Hold);
     }
     let held = departure(case, begin, end);
+    let stage_3 = case.stages[1].unwrap_or(end).clamp(begin, end);
+    let parts = [departure(case, begin, stage_3), departure(case, stage_3, end)];
+    let parts = parts.map(|part| (part.turn_rad.abs(), part.share.abs()));
+    let score = score::stand_on(case, parts, rule_17_port::in_stage_4(case));
+    if let Some(other) = case.gives_way_throughout(begin..end) {
+        return Ruling::new(Check::R17Hold, case.life.target, Status::NotApplicable)
+            .detail(format!("EXCUSED-BY-TARGET-{other}"))
+            .score(score)
+            .done();
+    }
     let broke =
         |turn_rad: f64, share: f64| held.turn_rad.abs() >= turn_rad || held.share.abs() >= share;
     let (mut status, mut detail) = if broke(m.substantial_turn_rad, m.substantial_speed_fraction) {
@@ -55,14 +66,11 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         false
     };
     let margin_rad = if excused { 0.0 } else { margin_rad(case, held) };
-    let stage_3 = case.stages[1].unwrap_or(end).clamp(begin, end);
-    let parts = [departure(case, begin, stage_3), departure(case, stage_3, end)];
-    let parts = parts.map(|part| (part.turn_rad.abs(), part.share.abs()));
     let t_s = case.life.time_s(held.k);
     Ruling::new(Check::R17Hold, case.life.target, status)
         .detail(detail)
         .margin(margin_rad)
-        .score(score::stand_on(case, parts, rule_17_port::in_stage_4(case)))
+        .score(score)
         .at(t_s)
         .radians("x_psi", held.turn_rad)
         .share("x_u", held.share)

@@ -334,7 +334,7 @@ impl<'a> Case<'a> {
             && alpha_rad[run.start] < ABAFT_THE_BEAM_RAD
             && (course(run.end) - course(run.start)) * abeam_m < 0.0
             && pair.tcpa_s[run.end] > 0.0
-            && pair.dcpa_m[run.end] < pair.dcpa_m[run.start]
+            && pair.predicted_m(run.end) < pair.predicted_m(run.start)
             && pair.predicted_within(run.end, p.minimum_m)
     }
 

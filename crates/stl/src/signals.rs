@@ -139,9 +139,21 @@ impl<'a> PairSignals<'a> {
         if self.reference_points_inside() && self.dcpa_m[k] < limit_m {
             return true;
         }
+        self.predicted_hull_m(k) < limit_m
+    }
+
+    /// The predicted smallest distance, metres, of the campaign's kind.
+    pub fn predicted_m(&self, k: usize) -> f64 {
+        match self.kind {
+            DistanceKind::Centre => self.dcpa_m[k],
+            DistanceKind::Hull => self.predicted_hull_m(k),
+        }
+    }
+
+    fn predicted_hull_m(&self, k: usize) -> f64 {
         let own = Posed { ship: &self.own.ship, psi_rad: self.own.psi_rad[k] };
         let target = Posed { ship: &self.target.ship, psi_rad: self.target.psi_rad[k] };
-        predicted_clearance_m(own, target, self.position_m[k], self.velocity_mps[k]) < limit_m
+        predicted_clearance_m(own, target, self.position_m[k], self.velocity_mps[k])
     }
 
     /// Where own ship lies to the target's projected track: metres ahead of her bow along

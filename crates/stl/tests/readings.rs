@@ -83,6 +83,23 @@ fn turning_in_on_an_overtaken_ship_is_violated_though_she_keeps_clear() {
     assert_eq!(finding(&swerve, Check::R13).status, Finding::Violated);
 }
 
+/// Turning in counts where the pass becomes closer by it: 30 degrees lead from 26 m ahead of her to
+/// 70 m astern, 12 degrees lead into her.
+#[test]
+fn turning_in_must_make_the_pass_closer() {
+    let other = || Script::straight(487.0, -900.0, 0.0, 3.0);
+    // at 6 degrees a second
+    let swerves = |seconds: usize| {
+        let turns = vec![(126, -6.0, seconds), (129 + seconds, 6.0, seconds + 13)];
+        let own = Script { psi_deg: -40.0, speed_mps: 8.0, turns, ..own() };
+        let trace = run(&own, &[other()], 500);
+        assert_eq!(finding(&trace, Check::Safe).status, Finding::Holds);
+        finding(&trace, Check::R13).status
+    };
+    assert_eq!(swerves(5), Finding::Holds);
+    assert_eq!(swerves(2), Finding::Violated);
+}
+
 #[test]
 fn fixed_ranges_bind_all_but_the_overtaking_roles() {
     let onset = |own: Script, target: Script| {

@@ -17,6 +17,7 @@ fn a_turn_forced_by_another_target_is_excused() {
     let judgement = judge(&scene);
     assert_eq!(of(&judgement, 0, Check::Turn).status, NotApplicable);
     assert_eq!(of(&judgement, 0, Check::Turn).detail, "FORCED-BY-TARGET-1");
+    // her turn ends the duty to give way before Rule 17 lets go of her
     assert_eq!(of(&judgement, 0, Check::R17Hold).status, Pass);
     assert_eq!(of(&judgement, 0, Check::R17Hold).detail, "EXCUSED-BY-TARGET-1");
     assert_eq!(of(&judgement, 1, Check::Turn).status, Pass);
@@ -34,11 +35,29 @@ fn slowing_down_forced_by_another_target_is_excused() {
     expect(&alone, Check::R17Hold, Fail, "FAIL-17AI");
     let both = judge(&Scene::new(script(), from_port()).and(from_starboard()));
     let excused = of(&both, 0, Check::R17Hold);
-    assert_eq!((excused.status, &*excused.detail), (Pass, "EXCUSED-BY-TARGET-1"));
+    assert_eq!((excused.status, &*excused.detail), (NotApplicable, "EXCUSED-BY-TARGET-1"));
     let safety = of(&both, 0, Check::Safe).score.unwrap();
     // half of the penalty by speed in each stage in which it was cut: 1 - 0.2 / 2
     let share = excused.score.unwrap() / safety;
     assert!((share - 0.9).abs() < 1e-9 || (share - 0.81).abs() < 1e-9, "{share}");
+}
+
+/// Held all the same: where she owed giving way from the entry of stage 2 until she might act, Rule
+/// 17(a)(i) was not put to the test; where that duty ended sooner, it was, and is kept.
+#[test]
+fn a_duty_to_give_way_all_the_time_leaves_nothing_to_hold() {
+    let holds = |other: Script| {
+        let judgement = judge(&Scene::new(own(6.0).hold(700.0), from_port()).and(other));
+        let found = of(&judgement, 0, Check::R17Hold);
+        assert!(judgement.pairs[1].role == record::Role::GiveWay, "{judgement:#?}");
+        (found.status, found.detail.to_string())
+    };
+    let excused = (NotApplicable, "EXCUSED-BY-TARGET-1".to_owned());
+    assert_eq!(holds(from_starboard()), excused);
+    // she passes at 150 s, 130 m off
+    assert_eq!(holds(target(900.0, 770.0, 270.0, 6.0)), (Pass, String::new()));
+    // her risk opens after that of the ship from port
+    assert_eq!(holds(target(2400.0, 2400.0, 270.0, 6.0)), (Pass, String::new()));
 }
 
 #[test]
