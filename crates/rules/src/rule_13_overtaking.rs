@@ -5,9 +5,9 @@
 //! the duty of keeping clear of the overtaken vessel until she is finally past and clear."
 //! Reading: either side is allowed. 13(a) fails with the passing distance. 13(d) fails when,
 //! before release, own ship crosses the other's centre line close ahead of her bow, comes close on
-//! her bow while the range falls (which fails 13(a) too, and says more), turns towards her line from
-//! forward of the sector of 13(b) so that a close pass is predicted that would have been a wider
-//! one, or forces the other to alter: she then leaves her own nominal track by 10 degrees or a
+//! her bow while the range falls (which fails 13(a) too, and says more), turns towards her line
+//! from forward of the sector of 13(b) so that a close pass is predicted that would have been a
+//! wider one, or forces the other to alter: she then leaves her own nominal track by 10 degrees or a
 //! quarter of her speed, which only a target that minds own ship can do.
 //! With several targets it counts where no other ship was nearer to her. Drawing ahead on a steady
 //! course is no breach. A run that ends before release cannot show that 13(d) was kept.
@@ -131,7 +131,7 @@ fn turns_in(case: &Case<'_>, until: usize) -> Option<Breach> {
     })
 }
 
-/// 13(d): the other was forced to alter: first held departure from her nominal track in the samples.
+/// 13(d): the other was forced to alter. The first held departure from her nominal track.
 fn forces_her(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
     let life = case.life;
     let m = &case.rules().manoeuvre;
