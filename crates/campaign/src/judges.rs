@@ -182,7 +182,9 @@ fn disagreements(first: &Judgement, second: &[Robustness]) -> Vec<Disagreement> 
                 .verdicts
                 .iter()
                 .find(|v| v.check == said.check && v.target == Some(said.target))?;
-            (!agree(verdict, said.status)).then(|| Disagreement {
+            let agreed =
+                agree(verdict, said.status) || unwritten_breach(first, verdict, said.status);
+            (!agreed).then(|| Disagreement {
                 check: said.check,
                 target: said.target,
                 first: verdict.status,
@@ -194,12 +196,28 @@ fn disagreements(first: &Judgement, second: &[Robustness]) -> Vec<Disagreement> 
         .collect()
 }
 
+/// A stand-on ship that broke a rule herself is not excused for a close pass. Where every rule that
+/// she broke has no formula, the second judge cannot know of it.
+fn unwritten_breach(first: &Judgement, verdict: &Verdict, finding: Finding) -> bool {
+    let known = |check| check == Check::R17Shall || stl::WITH_FORMULA.contains(&check);
+    let broke = |v: &&Verdict| {
+        v.target == verdict.target && v.status == Status::Fail && v.check != Check::Safe
+    };
+    let mut breaches = first.verdicts.iter().filter(broke).peekable();
+    verdict.check == Check::Safe
+        && verdict.detail == "FAIL-8D"
+        && finding == Finding::Holds
+        && breaches.peek().is_some()
+        && breaches.all(|v| !known(v.check))
+}
+
 /// Section 12: negative where the first judge says FAIL, positive where it says PASS or WARN. A
 /// robustness of 0 lies on the boundary and contradicts nothing; what has no formula is not asked.
 /// Rule 19(e) has none either: a failure of it alone says nothing of 19(d)(i) and (ii). Where the
 /// first judge found a failure and took it back because another class is within the doubt, what was
 /// found first is compared: the second judge asks for the class that decides and for no other, and
-/// must have found the same failure.
+/// must have found the same failure. What a duty to another target excused is a pass to the one and
+/// untested to the other.
 fn agree(verdict: &Verdict, finding: Finding) -> bool {
     use Status::{Fail, Inconclusive, NotApplicable, NotEvaluated, Pass, Warn};
     let only_19e = verdict.status == Fail && verdict.detail == "FAIL-19E";
@@ -208,7 +226,10 @@ fn agree(verdict: &Verdict, finding: Finding) -> bool {
         Finding::NotEvaluated | Finding::Undecided => true,
         Finding::Violated => status == Fail && !only_19e,
         Finding::Holds => matches!(status, Pass | Warn) || only_19e,
-        Finding::NotApplicable => matches!(status, NotApplicable | NotEvaluated),
+        Finding::NotApplicable => {
+            matches!(status, NotApplicable | NotEvaluated)
+                || verdict.detail.starts_with("EXCUSED-BY")
+        }
         Finding::Inconclusive => status == Inconclusive || only_19e,
     }
 }

@@ -7,8 +7,8 @@
 //! before release, own ship crosses the other's centre line close ahead of her bow, comes close on
 //! her bow while the range falls (which fails 13(a) too, and says more), turns towards her line
 //! from forward of the sector of 13(b) so that a close pass is predicted that would have been a
-//! wider one, or forces the other to alter: she then leaves her own nominal track by 10 degrees or a
-//! quarter of her speed, which only a target that minds own ship can do.
+//! wider one, or forces the other to alter: she then leaves her own nominal track by 10 degrees or
+//! a quarter of her speed, which only a target that minds own ship can do.
 //! With several targets it counts where no other ship was nearer to her. Drawing ahead on a steady
 //! course is no breach. A run that ends before release cannot show that 13(d) was kept.
 //! Source: rules specification, section 8; score after Hagen 2023, equations 25 and 26.

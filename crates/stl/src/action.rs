@@ -52,6 +52,17 @@ impl Deviation {
         let planned = nominal.is_some();
         Self { heading_rad, planned, speed_mps, speed_change_mps, turns, speed_changes }
     }
+
+    /// Whether a run of the heading leads back towards the planned one.
+    pub fn turns_back(&self, run: &Run) -> bool {
+        self.planned && self.heading_rad[run.end].abs() < self.heading_rad[run.start].abs()
+    }
+
+    /// Whether a run of the speed leads back towards the planned one.
+    pub fn regains(&self, run: &Run) -> bool {
+        let off = &self.speed_change_mps;
+        self.planned && off[run.end].abs() < off[run.start].abs()
+    }
 }
 
 /// What own ship did for one target in the window of action.

@@ -58,8 +58,9 @@ impl Case<'_> {
         (0..heading_rad.len()).map(bound).collect()
     }
 
-    /// Whether the latest run began, or the present sample lies, where she gives way to another
-    /// ship: that duty forces what she does.
+    /// Whether the present sample lies, or the latest alteration began, where she gives way to
+    /// another ship: that duty forces what she does. The way back from it, and what is too small
+    /// to break Rule 17, is no alteration of her own choice.
     fn excused(&self) -> Vec<bool> {
         let mut excused = vec![false; self.pair().samples()];
         for (_, life) in self.lives.iter().enumerate().filter(|(i, _)| *i != self.target) {
@@ -67,8 +68,15 @@ impl Case<'_> {
                 continue;
             };
             let owed = |k: usize| (duty.onset..=duty.end).contains(&k);
-            let runs = self.deviation.turns.iter().chain(&self.deviation.speed_changes);
-            let mut starts: Vec<usize> = runs.map(|run| run.start).collect();
+            let (did, p) = (&self.deviation, self.params);
+            let turns = did.turns.iter().filter(|run| {
+                owed(run.start) || run.change.abs() >= p.turn_action_rad && !did.turns_back(run)
+            });
+            let speeds = did.speed_changes.iter().filter(|run| {
+                let least_mps = p.speed_action * did.speed_mps[run.start];
+                owed(run.start) || run.change.abs() >= least_mps && !did.regains(run)
+            });
+            let mut starts: Vec<usize> = turns.chain(speeds).map(|run| run.start).collect();
             starts.sort_unstable();
             for (k, excused) in excused.iter_mut().enumerate() {
                 let latest = starts.iter().rfind(|start| **start <= k);

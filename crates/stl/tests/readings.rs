@@ -100,6 +100,27 @@ fn turning_in_must_make_the_pass_closer() {
     assert_eq!(swerves(2), Finding::Violated);
 }
 
+/// What a duty to give way to another forced is excused with its way back, however late; another
+/// alteration after that duty is not.
+#[test]
+fn the_way_back_from_a_forced_turn_is_excused() {
+    // gives way to the one from 0 to about 55 s; the other, from port, is met at 150 s
+    let starboard = Script::straight(300.0, 300.0, 270.0, 5.0);
+    let port = Script::straight(750.0, -900.0, 90.0, 5.0);
+    let holds = |own: Script| {
+        let trace = run(&own, &[starboard.clone(), port.clone()], 300);
+        let lives = lives(&trace, &USV);
+        let ends = lives.iter().map(|life| life.in_sight.as_ref().unwrap().end).collect::<Vec<_>>();
+        assert!(ends[0] < 70 && ends[1] > 100, "{ends:?}");
+        judge(&trace, &USV)[Check::COUNT + Check::R17Hold as usize].status
+    };
+    let forced = || own().turn(15, 40.0);
+    assert_ne!(holds(forced().turn(75, -40.0)), Finding::Violated);
+    assert_ne!(holds(forced().turn(75, -10.0)), Finding::Violated);
+    assert_eq!(holds(forced().turn(75, 30.0)), Finding::Violated);
+    assert_eq!(holds(own().turn(75, 30.0)), Finding::Violated);
+}
+
 #[test]
 fn fixed_ranges_bind_all_but_the_overtaking_roles() {
     let onset = |own: Script, target: Script| {
