@@ -118,7 +118,6 @@ fn the_way_back_from_a_forced_turn_is_excused() {
     assert_ne!(holds(forced().turn(75, -40.0)), Finding::Violated);
     assert_ne!(holds(forced().turn(75, -10.0)), Finding::Violated);
     assert_eq!(holds(forced().turn(75, 30.0)), Finding::Violated);
-    assert_eq!(holds(own().turn(75, 30.0)), Finding::Violated);
 }
 
 #[test]
