@@ -61,14 +61,14 @@ impl Judges {
     /// pairs need them, and which turns are left to own ship, is known from a first look.
     pub fn judge(&mut self, encounter: &Encounter, trace: &mut Trace) -> Judged {
         let mut judgement = self.first.judge(trace);
-        (trace.last_minute, trace.unavoidable) = (None, None);
+        trace.last_minute = None;
         let near_miss_m = self.first.rules().distance.r_nm_m;
         if let Some(nominal) = trace.nominal.as_ref().filter(|_| self.last_minute)
             && let Some(found) =
                 last_minute::find(encounter, nominal, &judgement.pairs, near_miss_m)
         {
-            let again = found.pairs.iter().any(Option::is_some);
-            (trace.last_minute, trace.unavoidable) = (Some(found.pairs), Some(found.unavoidable));
+            let again = found.iter().any(Option::is_some);
+            trace.last_minute = Some(found);
             if again {
                 judgement = self.first.judge(trace);
             }

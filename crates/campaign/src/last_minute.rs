@@ -1,5 +1,4 @@
-//! The last safe instants of each pair, and whether avoidance was possible at all (rules
-//! specification, section 10).
+//! The last safe instants of each pair (rules specification, section 10).
 //!
 //! `sim` says what one ship alone could still do from each instant of the nominal track; here is
 //! the search along it, second by second. The judge only reads what is found. The first infeasible
@@ -8,23 +7,15 @@
 use record::{Encounter, EncounterClass, LastInstant, LastMinute, Nominal, PairFacts, Role};
 use sim::{Escapes, Manoeuvre, Side};
 
-/// What was found for one run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Found {
-    /// For each pair that reached stage 3 its last safe instants.
-    pub pairs: Vec<Option<LastMinute>>,
-    /// No manoeuvre of own ship, begun at any instant, clears all targets.
-    pub unavoidable: bool,
-}
-
-/// Searches the nominal track of an encounter; `None` where a ship has no model. `facts` are those
-/// of the rule set that is to read what is found; `near_miss_m` is its `r_nm`, hull to hull.
+/// Searches the nominal track of an encounter: for each pair that reached stage 3 its last safe
+/// instants; `None` where a ship has no model. `facts` are those of the rule set that is to read
+/// what is found; `near_miss_m` is its `r_nm`, hull to hull.
 pub fn find(
     encounter: &Encounter,
     nominal: &Nominal,
     facts: &[PairFacts],
     near_miss_m: f64,
-) -> Option<Found> {
+) -> Option<Vec<Option<LastMinute>>> {
     let escapes = Escapes::new(encounter, nominal)?;
     let least_m = nominal.minima.iter().map(|minimum| minimum.hull_m).collect();
     let mut search = Search { escapes, least_m, near_miss_m };
@@ -32,7 +23,7 @@ pub fn find(
     for pair in facts.iter().filter(|pair| pair.stages_s[1].is_some()) {
         pairs[usize::from(pair.target)] = Some(search.pair(pair));
     }
-    Some(Found { pairs, unavoidable: search.unavoidable() })
+    Some(pairs)
 }
 
 /// The forks of one encounter, and the smallest hull distances of its nominal track.
@@ -101,23 +92,6 @@ impl Search<'_> {
             Some(t_s) if indicative => LastInstant::Indicative(t_s),
             Some(t_s) => LastInstant::At(t_s),
         }
-    }
-
-    /// Whether no manoeuvre, from any instant before the first contact on, clears all targets.
-    fn unavoidable(&mut self) -> bool {
-        let hit = |target: &usize| self.least_m[*target] <= 0.0;
-        let targets = 0..self.least_m.len();
-        let Some(instants) =
-            targets.clone().filter(hit).map(|target| self.escapes.instants(target)).min()
-        else {
-            return false;
-        };
-        let clears = |(instant, manoeuvre): (usize, Manoeuvre)| {
-            let mut all = targets.clone();
-            all.all(|target| self.escapes.own_clears(target, instant, manoeuvre, 0.0).is_some())
-        };
-        let from = |instant: usize| Manoeuvre::ALL.map(|manoeuvre| (instant, manoeuvre));
-        !(0..instants).flat_map(from).any(clears)
     }
 }
 

@@ -4,6 +4,7 @@
 //! Read [`pipeline`] first: it calls every stage in order.
 #![forbid(unsafe_code)]
 
+pub mod avoidable;
 pub mod cases;
 pub mod engine;
 pub mod error;

@@ -4,7 +4,7 @@ use crate::inflight::InFlight;
 use crate::judges::{Disagreement, Judges};
 use crate::plan::EncounterSource;
 use crate::supervisor::Lost;
-use crate::{Error, Plan, row};
+use crate::{Error, Plan, avoidable, row};
 use planner_api::{Planner, PlannerEntry, Registry};
 use record::verdict::Judgement;
 use record::{Encounter, EncounterId, RunRow, Trace};
@@ -134,6 +134,10 @@ impl<'a> Worker<'a> {
         trace.nominal = sim::nominal(&encounter);
         if trace.outcome.is_planner_failure() {
             self.planner = self.shop.planner()?;
+        }
+        if self.shop.plan.run.last_minute {
+            let means = (&mut *scratch, beat);
+            trace.unavoidable = avoidable::unavoidable(&encounter, &trace, peers, means);
         }
         let key = self.shop.plan.rules.key(encounter.own.hull.length_m);
         let judges = self.judges.get_mut(key).expect("the plan found a profile for every length");

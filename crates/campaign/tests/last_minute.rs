@@ -1,6 +1,6 @@
 //! The last safe instants where they are known in closed form, and laws that hold everywhere.
 
-use campaign::last_minute::{Found, find};
+use campaign::last_minute::find;
 use geom::{HullOutline, Vec2, units::deg};
 use proptest::prelude::*;
 use record::{
@@ -69,14 +69,14 @@ fn facts(class: EncounterClass, role: Role) -> PairFacts {
     }
 }
 
-fn found(encounter: &Encounter, facts: PairFacts) -> Found {
+fn found(encounter: &Encounter, facts: PairFacts) -> Option<LastMinute> {
     let nominal = sim::nominal(encounter).expect("the encounter is sound");
-    find(encounter, &nominal, &[facts], NEAR_MISS_M).expect("both have models")
+    find(encounter, &nominal, &[facts], NEAR_MISS_M).expect("both have models")[0]
 }
 
 fn last(encounter: &Encounter) -> LastMinute {
     let found = found(encounter, facts(EncounterClass::CrossingStbd, Role::GiveWay));
-    found.pairs[0].expect("the pair reached stage 3")
+    found.expect("the pair reached stage 3")
 }
 
 fn seconds(instant: LastInstant) -> f64 {
@@ -136,7 +136,7 @@ fn forbidden_side_is_left_out_of_one_instant_and_not_of_the_other() {
     let hull = HullOutline::centred(2000.0, 20.0);
     let ahead = target(hull, Vec2::new(900.0, 960.0), deg(90.0), 0.0);
     let encounter = encounter(HullOutline::centred(0.02, 0.01), kinematic(0.1, 1e-5), ahead);
-    let pair = |class, role| found(&encounter, facts(class, role)).pairs[0].unwrap();
+    let pair = |class, role| found(&encounter, facts(class, role)).unwrap();
     let head_on = pair(EncounterClass::HeadOn, Role::Both);
     let give_way = pair(EncounterClass::CrossingStbd, Role::GiveWay);
     assert!(seconds(head_on.own) < seconds(head_on.own_any_turn));
@@ -149,8 +149,7 @@ fn nothing_helps_a_ship_that_begins_before_a_wall() {
     let hull = HullOutline::centred(8.0, 2.0);
     let encounter = encounter(hull, kinematic(0.01, 1e-3), wall(300.0));
     let found = found(&encounter, facts(EncounterClass::CrossingStbd, Role::GiveWay));
-    assert!(found.unavoidable);
-    let pair = found.pairs[0].unwrap();
+    let pair = found.unwrap();
     assert_eq!((pair.own, pair.own_any_turn), (LastInstant::BeforeStart, LastInstant::BeforeStart));
 }
 
@@ -161,9 +160,8 @@ fn pair_that_passes_clear_was_never_critical() {
     let crossing = facts(EncounterClass::CrossingStbd, Role::GiveWay);
     let early = PairFacts { stages_s: [Some(0.0), None, None], ..crossing.clone() };
     let passed = found(&encounter, crossing);
-    assert!(!passed.unavoidable);
-    assert_eq!(passed.pairs[0].unwrap().own, LastInstant::NeverCritical);
-    assert_eq!(found(&encounter, early).pairs, [None], "stage 3 was not reached");
+    assert_eq!(passed.unwrap().own, LastInstant::NeverCritical);
+    assert_eq!(found(&encounter, early), None, "stage 3 was not reached");
 }
 
 /// A meeting of a small ship with one of `beam_m` on a course that leads through her.

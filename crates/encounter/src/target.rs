@@ -166,7 +166,7 @@ impl<'a> Request<'a> {
         match (drawn, self.mix(), &self.model.target.conduct) {
             (Some(drawn), Some(mix), Some(conduct)) => {
                 let mut stream = streams.stream(Purpose::TargetBehaviour, self.number);
-                let target = Minded { psi_rad: placed.psi_rad, duration_s_max };
+                let target = Minded { start: start_of(placed), duration_s_max };
                 mix.draw_instead(drawn, conduct, target, &mut stream)
             }
             _ => (self.intent(placed, streams, duration_s_max), 1.0),
@@ -197,11 +197,7 @@ impl<'a> Request<'a> {
             hull: HullOutline::centred(length_m, beam_m),
             vessel: either(limits.0, limits.1, length_m, placed.speed_mps)
                 .expect("a validated target has limits"),
-            start: Motion {
-                position_m: placed.position_m,
-                psi_rad: placed.psi_rad,
-                speed_mps: placed.speed_mps,
-            },
+            start: start_of(&placed),
             intent,
         };
         Made { target, placed }
@@ -260,7 +256,7 @@ impl<'a> Request<'a> {
         let spec = &self.model.target;
         if let (Some(mix), Some(conduct)) = (self.mix(), &spec.conduct) {
             let mut stream = streams.stream(Purpose::TargetBehaviour, self.number);
-            let target = Minded { psi_rad: placed.psi_rad, duration_s_max };
+            let target = Minded { start: start_of(placed), duration_s_max };
             return mix.draw(conduct, target, &mut stream);
         }
         match &self.model.target.intent {
@@ -316,5 +312,13 @@ impl<'a> Request<'a> {
         };
         let stratum = self.stratum.name.clone();
         Error::Placement { stratum, j, target: self.number, tries: TRIES_MAX, problem }
+    }
+}
+
+fn start_of(placed: &Placed) -> Motion {
+    Motion {
+        position_m: placed.position_m,
+        psi_rad: placed.psi_rad,
+        speed_mps: placed.speed_mps,
     }
 }

@@ -193,13 +193,19 @@ pub struct Turn {
 pub struct Conduct {
     /// What she makes of her duty.
     pub manner: Manner,
-    /// She acts when the time to the closest point is at most this, seconds: large for a ship that
-    /// gives way early, small for one that does so late.
+    /// She acts when the time to the closest point of her bow is at most this, seconds: large for a
+    /// ship that gives way early, small for one that does so late.
     pub act_tcpa_s: f64,
     /// There is risk when the predicted distance between reference points is at most this, metres.
     pub risk_dcpa_m: f64,
-    /// Size of her one alteration, radians, positive.
+    /// Size of her one alteration, radians, positive; one that complies makes it larger where it is
+    /// not enough.
     pub course_change_rad: f64,
+    /// A ship that stands on acts when the time to the closest point of her bow is at most this,
+    /// seconds ...
+    pub stand_on_tcpa_s: f64,
+    /// ... and the predicted distance between reference points still at most this, metres.
+    pub stand_on_dcpa_m: f64,
 }
 
 /// What a target makes of her duty.

@@ -75,7 +75,11 @@ pub struct RunRow {
     pub nominal_cpa_hull_m: Option<f64>,
     /// The same in the campaign's kind of distance: was the safety radius broken.
     pub nominal_safety_radius_broken: Option<bool>,
-    /// No manoeuvre of own ship could have cleared; absent where it was not computed.
+    /// The run ended in a contact that no manoeuvre of own ship could have avoided: hard over to
+    /// either side by 90 or 180 degrees, full astern, both, or nothing, begun at any beat from the
+    /// first track of the target that she hit (from the start where she ran aground or her planner
+    /// failed), the other ships being as they are, clears neither all targets nor all hazards.
+    /// False where the run ended without a contact; absent where it was not computed.
     pub unavoidable: Option<bool>,
 
     /// Onset of risk of the first pair at risk, seconds.

@@ -57,8 +57,9 @@ pub struct Trace {
     /// The last safe instants of each pair (rules specification, section 10) that reached stage 3,
     /// where they were computed. Not part of the digest: they depend on the rule set.
     pub last_minute: Option<Vec<Option<LastMinute>>>,
-    /// No manoeuvre of own ship from any instant of the nominal track clears all targets; absent
-    /// where it was not computed. No part of the digest either.
+    /// The run ended in a contact, and no manoeuvre of own ship begun at any beat from the first at
+    /// which she could act clears all targets and hazards; absent where it was not computed. No
+    /// part of the digest either.
     pub unavoidable: Option<bool>,
 }
 

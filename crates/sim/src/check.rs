@@ -168,6 +168,9 @@ fn check_intent(index: usize, name: &str, intent: &Intent) -> Result<(), SetupEr
         Intent::Duty(conduct) => {
             positive(&format!("the time to act of {name}"), conduct.act_tcpa_s)?;
             positive(&format!("the distance of risk of {name}"), conduct.risk_dcpa_m)?;
+            let stand_on = |what: &str| format!("the {what} of {name} standing on");
+            positive(&stand_on("time to act"), conduct.stand_on_tcpa_s)?;
+            positive(&stand_on("distance to act"), conduct.stand_on_dcpa_m)?;
             positive(&format!("the alteration of {name}"), conduct.course_change_rad)
         }
         // whether there is a planner of this name is for the registry to say

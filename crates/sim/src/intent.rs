@@ -8,7 +8,7 @@ use crate::pose::Pose;
 use crate::ship::Ship;
 use crate::vessel::Helm;
 use geom::{Vec2, angle, math, wrap};
-use record::{Intent, Turn, Waypoint};
+use record::{Intent, Turn, Visibility, Waypoint};
 
 /// A script and how far it has come.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub enum Script {
 impl Script {
     /// The script of an intent. A target under a planner has one as well: it keeps her course
     /// where nobody asks the planner, on the nominal track.
-    pub fn of(intent: &Intent, ship: &Ship, speed_mps: f64) -> Self {
+    pub fn of(intent: &Intent, ship: &Ship, speed_mps: f64, visibility: Visibility) -> Self {
         match intent {
             Intent::HoldCourse | Intent::Planner(_) => Self::Hold,
             Intent::Alter { at_s, course_rad, speed_mps } => {
@@ -50,7 +50,13 @@ impl Script {
             Intent::Turns(turns) => {
                 Self::Turns { left: turns.iter().rev().copied().collect(), speed_mps }
             }
-            Intent::Duty(conduct) => Self::Duty(Duty::new(conduct, ship, speed_mps)),
+            Intent::Duty(conduct) => {
+                let visual_range_m = match visibility {
+                    Visibility::InSight => None,
+                    Visibility::Restricted { visual_range_m } => Some(visual_range_m),
+                };
+                Self::Duty(Duty::new(conduct, ship, speed_mps, visual_range_m))
+            }
         }
     }
 

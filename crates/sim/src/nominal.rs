@@ -33,7 +33,8 @@ pub fn nominal(encounter: &Encounter) -> Option<Nominal> {
         .iter()
         .zip(ships)
         .map(|(target, ship)| {
-            let script = Script::of(&target.intent, &ship, target.start.speed_mps);
+            let script =
+                Script::of(&target.intent, &ship, target.start.speed_mps, encounter.visibility);
             Sailor::new(ship, script, room)
         })
         .collect();

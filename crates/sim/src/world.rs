@@ -160,11 +160,9 @@ impl<'a> World<'a> {
     fn new(encounter: &'a Encounter) -> Self {
         let environment = Environment::new(encounter);
         let (own, targets) = environment.ships(encounter).expect("the encounter was checked");
-        let scripts = encounter
-            .targets
-            .iter()
-            .zip(&targets)
-            .map(|(target, ship)| Script::of(&target.intent, ship, target.start.speed_mps));
+        let scripts = encounter.targets.iter().zip(&targets).map(|(target, ship)| {
+            Script::of(&target.intent, ship, target.start.speed_mps, encounter.visibility)
+        });
         let near_m = NEAR_M_MIN.max(2.0 * encounter.safety_radius_m);
         let approaches = targets.iter().map(|target| {
             let hulls = Hulls { own: &own.hull, target: &target.hull };

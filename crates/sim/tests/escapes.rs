@@ -4,10 +4,11 @@ mod scenes;
 
 use geom::units::deg;
 use proptest::prelude::*;
-use record::{Encounter, Vessel};
+use record::{Encounter, Order, Vessel};
 use scenes::{Meeting, Orders, kinematic, run, viknes};
-use sim::{Escapes, Manoeuvre, Side};
+use sim::{Escapes, Evasions, Manoeuvre, Side};
 use std::f64::consts::PI;
+use std::sync::atomic::AtomicU64;
 
 /// The smallest hull distance of a run in which own ship does what a manoeuvre says, metres.
 fn sailed_m(encounter: &Encounter, manoeuvre: Manoeuvre, at_s: f64) -> f64 {
@@ -81,6 +82,37 @@ proptest! {
         };
         prop_assume!(meeting_is_apart(&meeting));
         fork_is_the_run(&meeting, if inertia { viknes() } else { kinematic() }, instant, manoeuvre);
+    }
+
+    /// A whole run that ends in the manoeuvre says what the fork says, where the hulls do not graze.
+    #[test]
+    fn evasion_is_what_the_fork_says(
+        course in -3.1f64..3.1, speed in 2f64..11.0, length in 8f64..100.0, miss in -60f64..60.0,
+        instant in 60usize..150, manoeuvre in manoeuvres(), inertia in any::<bool>(),
+    ) {
+        let meeting = Meeting {
+            target_course_rad: course,
+            target_mps: speed,
+            target_length_m: length,
+            miss_m: miss,
+            ..Meeting::default()
+        };
+        prop_assume!(meeting_is_apart(&meeting));
+        let encounter = meeting.encounter(if inertia { viknes() } else { kinematic() }, kinematic());
+        let nominal = sim::nominal(&encounter).unwrap();
+        let mut escapes = Escapes::new(&encounter, &nominal).unwrap();
+        let instant = instant.min(escapes.instants(0) - 1);
+        let orders = vec![Order { course_rad: 0.0, speed_mps: 7.0 }; instant];
+        let (mut scratch, beat) = (sim::Scratch::default(), AtomicU64::new(0));
+        let evasions = Evasions::new(&encounter, &orders);
+        let means = (&mut scratch, &beat);
+        let clears = evasions.clears(instant, Some(manoeuvre), &mut |_| None, means);
+        let forked_m = forked_m(&mut escapes, manoeuvre, instant);
+        // where they differ the hulls graze: what is left of a heading and a speed decides
+        if clears != (forked_m > 0.0) {
+            let sailed_m = sailed_m(&encounter, manoeuvre, escapes.time_s(instant));
+            prop_assert!(forked_m < 0.3 && sailed_m < 0.3, "{} {}: {}", clears, forked_m, sailed_m);
+        }
     }
 
     /// What is promised of an instant later holds.

@@ -131,3 +131,41 @@ fn far_land_changes_no_ship() {
     assert_eq!((&open.own, &open.targets), (&coastal.own, &coastal.targets));
     assert!(open.hazard_m_min.is_none() && coastal.hazard_m_min.unwrap() > 1000.0);
 }
+
+/// Steers for a point off the easternmost corner of what it was told of, and then on to the north.
+#[derive(Default)]
+struct RoundsTheHead {
+    told: Vec<Vec<Vec2>>,
+}
+
+impl Planner for RoundsTheHead {
+    fn reset(&mut self, mission: &Mission) {
+        self.told.clone_from(&mission.hazards);
+    }
+
+    fn plan(&mut self, situation: &Situation<'_>) -> Command {
+        let head = self.told.iter().flatten().max_by(|a, b| a.y.total_cmp(&b.y));
+        let own_m = situation.own.position_m;
+        let course_rad = match head {
+            Some(head) if own_m.x < head.x => {
+                geom::angle::direction(head + Vec2::new(0.0, 50.0) - own_m)
+            }
+            _ => 0.0,
+        };
+        Command::course_speed(course_rad, 7.0)
+    }
+}
+
+/// A planner is told of land before the first beat, and one that reads it passes clear of a pier on
+/// which one that does not runs aground.
+#[test]
+fn a_planner_that_reads_the_hazards_passes_clear_of_them() {
+    let mut encounter = coast(&[PIER]);
+    encounter.own.route[0].position_m = Vec2::new(1400.0, 330.0);
+    let mut planner = RoundsTheHead::default();
+    let trace = run(&encounter, &mut planner);
+    assert_eq!(planner.told, encounter.hazards);
+    assert_eq!(trace.outcome, Outcome::Completed);
+    assert!(trace.hazard_m_min.unwrap() > 25.0, "{:?}", trace.hazard_m_min);
+    assert_eq!(run(&encounter, &mut hold()).outcome, Outcome::Grounding);
+}

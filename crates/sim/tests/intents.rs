@@ -2,15 +2,21 @@
 
 mod scenes;
 
-use geom::{units::deg, wrap};
+use geom::{Vec2, units::deg, wrap};
 use planner_api::{Command, Mission, Planner, Situation};
 use record::{Conduct, Encounter, Intent, Manner, Outcome, RunUntil, Trace, Turn};
 use scenes::{Meeting, Orders, Shy, hold, kinematic, run, viknes};
 use std::sync::atomic::AtomicU64;
 
 fn duty(manner: Manner, act_tcpa_s: f64) -> Intent {
-    let course_change_rad = deg(40.0);
-    Intent::Duty(Conduct { manner, act_tcpa_s, risk_dcpa_m: 300.0, course_change_rad })
+    Intent::Duty(Conduct {
+        manner,
+        act_tcpa_s,
+        risk_dcpa_m: 300.0,
+        course_change_rad: deg(40.0),
+        stand_on_tcpa_s: 10.0,
+        stand_on_dcpa_m: 10.0,
+    })
 }
 
 /// Own ship north at 7 m/s; the target on this course, passing 20 m off after 150 s.
@@ -34,39 +40,35 @@ fn duty_decides_who_alters_when_and_which_way() {
     // (target's course, does she have to give way): crossing from own starboard she has own ship
     // to port and stands on; from own port she gives way; reciprocal both give way
     for (course_deg, obliged) in [(-90.0, false), (90.0, true), (180.0, true)] {
-        let early = run(&meeting(course_deg, duty(Manner::Complies, 120.0)), &mut hold());
+        let early = run(&meeting(course_deg, duty(Manner::Complies, 100.0)), &mut hold());
         let late = run(&meeting(course_deg, duty(Manner::Complies, 40.0)), &mut hold());
+        // her bow is half her length, 20 m, ahead of the point that comes nearest
+        let bow_s = 20.0 / (geom::unit(deg(course_deg)) * 6.0 - Vec2::new(7.0, 0.0)).norm();
         if obliged {
             let (at_s, off_deg) = alteration(&early).unwrap();
-            assert!(
-                (at_s - 30.0).abs() <= 1.0 && (off_deg - 40.0).abs() < 1e-9,
-                "{at_s} {off_deg}"
-            );
+            assert!((at_s - (50.0 - bow_s)).abs() <= 1.0, "{at_s}");
+            assert!((off_deg - 40.0).abs() < 1e-9, "{off_deg}");
             let (at_s, off_deg) = alteration(&late).unwrap();
-            assert!(
-                (at_s - 110.0).abs() <= 1.0 && (off_deg - 40.0).abs() < 1e-9,
-                "{at_s} {off_deg}"
-            );
+            assert!((at_s - (110.0 - bow_s)).abs() <= 1.0, "{at_s}");
+            assert!(off_deg >= 40.0 - 1e-9, "{off_deg}");
             assert!(early.pairs[0].minimum.centre_m > late.pairs[0].minimum.centre_m);
         } else {
             assert_eq!((alteration(&early), alteration(&late)), (None, None));
         }
-        let neglects = run(&meeting(course_deg, duty(Manner::Neglects, 120.0)), &mut hold());
+        let neglects = run(&meeting(course_deg, duty(Manner::Neglects, 100.0)), &mut hold());
         assert_eq!(alteration(&neglects), None);
-        let wrong = run(&meeting(course_deg, duty(Manner::WrongWay, 120.0)), &mut hold());
+        let wrong = run(&meeting(course_deg, duty(Manner::WrongWay, 100.0)), &mut hold());
         let (at_s, off_deg) = alteration(&wrong).unwrap();
-        assert!((at_s - 30.0).abs() <= 1.0 && (off_deg + 40.0).abs() < 1e-9, "{at_s} {off_deg}");
+        assert!((at_s - (50.0 - bow_s)).abs() <= 1.0, "{at_s}");
+        assert!((off_deg + 40.0).abs() < 1e-9, "{off_deg}");
     }
 }
 
 #[test]
-fn overtaking_ship_gives_way_and_overtaken_ship_stands_on() {
-    let mut astern = meeting(0.0, duty(Manner::Complies, 90.0));
-    astern.targets[0].start.speed_mps = 11.0;
-    astern.targets[0].start.position_m = geom::Vec2::new(-900.0, 10.0);
-    assert!(alteration(&run(&astern, &mut hold())).is_some());
-    let ahead = meeting(0.0, duty(Manner::Complies, 90.0));
-    assert_eq!(alteration(&run(&ahead, &mut hold())), None);
+fn nobody_alters_on_the_first_glance() {
+    let (at_s, _) =
+        alteration(&run(&meeting(90.0, duty(Manner::Complies, 140.0)), &mut hold())).unwrap();
+    assert!((at_s - 30.0).abs() <= 1.0, "{at_s}");
 }
 
 #[test]

@@ -10,9 +10,16 @@ early_tcpa_s = { uniform = [60.0, 150.0] }
 late_tcpa_s = { uniform = [15.0, 30.0] }
 course_change_deg = { uniform = [20.0, 60.0] }
 risk_dcpa_m = 250.0
+stand_on_tcpa_s = { uniform = [20.0, 60.0] }
+stand_on_dcpa_m = 100.0
 random_turn_every_s = 120.0
 random_turn_deg = { uniform = [-60.0, 60.0] }
 planner = "hold-course"
+[model.target.conduct.track]
+legs = 4
+leg_s = { uniform = [60.0, 120.0] }
+course_off_deg = { uniform = [-90.0, 90.0] }
+speed_factor = { uniform = [0.5, 1.2] }
 [model.geometry]"#;
 
 fn generator(mix: &str) -> Result<Generator, String> {
@@ -33,10 +40,10 @@ fn draw(generator: &Generator, j: u64) -> Encounter {
 #[test]
 fn shares_are_those_of_the_file() {
     let mix = "intent_mix = { hold_course = 0.3, comply = 0.25, late = 0.15, neglect = 0.1, \
-               wrong_way = 0.08, random = 0.07, planner = 0.05 }";
+               wrong_way = 0.08, random = 0.05, track = 0.02, planner = 0.05 }";
     let generator = generator(mix).unwrap();
     let n = 4000;
-    let mut counts = [0u32; 7];
+    let mut counts = [0u32; 8];
     for j in 0..n {
         let encounter = draw(&generator, j);
         let kind = match &encounter.targets[0].intent {
@@ -49,15 +56,17 @@ fn shares_are_those_of_the_file() {
                 assert!(turns.windows(2).all(|pair| pair[0].at_s <= pair[1].at_s));
                 5
             }
+            Intent::Track(_) => 6,
             Intent::Planner(name) => {
                 assert_eq!(name, "hold-course");
-                6
+                7
             }
             other => panic!("{other:?}"),
         };
         counts[kind] += 1;
     }
-    for (count, share) in counts.into_iter().zip([0.3, 0.25, 0.15, 0.1, 0.08, 0.07, 0.05f64]) {
+    for (count, share) in counts.into_iter().zip([0.3, 0.25, 0.15, 0.1, 0.08, 0.05, 0.02, 0.05f64])
+    {
         let sd = (share * (1.0 - share) / n as f64).sqrt();
         let found = f64::from(count) / n as f64;
         assert!((found - share).abs() < 4.5 * sd, "{found} for {share}");
@@ -82,6 +91,36 @@ fn random_turns_have_their_rate() {
     // 4.5 standard errors of the mean, and of the variance of a Poisson law
     assert!((mean - 10.0).abs() < 4.5 * (10.0 / n as f64).sqrt(), "{mean}");
     assert!((variance - 10.0).abs() < 4.5 * 10.0 * (2.1 / n as f64).sqrt(), "{variance}");
+}
+
+/// The first leg is the encounter that was asked for; later legs keep within their laws.
+#[test]
+fn tracks_are_drawn_from_their_laws() {
+    let generator = generator("intent_mix = { track = 1.0 }").unwrap();
+    let mut sum_deg = 0.0;
+    for j in 0..500 {
+        let target = draw(&generator, j).targets.remove(0);
+        let Intent::Track(waypoints) = &target.intent else { panic!("{j}") };
+        assert_eq!(waypoints.len(), 4);
+        let mut from_m = target.start.position_m;
+        for (leg, waypoint) in waypoints.iter().enumerate() {
+            let (way_m, speed_mps) = (waypoint.position_m - from_m, waypoint.speed_mps.unwrap());
+            let leg_s = way_m.norm() / speed_mps;
+            assert!((60.0 - 1e-9..=120.0 + 1e-9).contains(&leg_s), "{leg_s}");
+            let off_rad = geom::wrap(geom::angle::direction(way_m) - target.start.psi_rad);
+            let factor = speed_mps / target.start.speed_mps;
+            if leg == 0 {
+                assert!(off_rad.abs() < 1e-9 && (factor - 1.0).abs() < 1e-12);
+            } else {
+                assert!(off_rad.abs().to_degrees() <= 90.0 + 1e-9, "{off_rad}");
+                assert!((0.5..=1.2).contains(&factor), "{factor}");
+                sum_deg += off_rad.to_degrees();
+            }
+            from_m = waypoint.position_m;
+        }
+    }
+    // 1500 draws of a law with a standard deviation of 52 degrees
+    assert!((sum_deg / 1500.0).abs() < 4.5 * 52.0 / 1500f64.sqrt(), "{sum_deg}");
 }
 
 /// The same ships in the same places, whatever the mix.

@@ -203,8 +203,8 @@ fn fork(
         campaign::last_minute::find(encounter, nominal, &first.pairs, near_miss_m)
     });
     let Some(found) = found else { return false };
-    let again = found.pairs.iter().any(Option::is_some);
-    (trace.last_minute, trace.unavoidable) = (Some(found.pairs), Some(found.unavoidable));
+    let again = found.iter().any(Option::is_some);
+    trace.last_minute = Some(found);
     again
 }
 
