@@ -37,17 +37,19 @@ fn alteration(trace: &Trace) -> Option<(f64, f64)> {
 
 #[test]
 fn duty_decides_who_alters_when_and_which_way() {
-    // (target's course, does she have to give way): crossing from own starboard she has own ship
-    // to port and stands on; from own port she gives way; reciprocal both give way
-    for (course_deg, obliged) in [(-90.0, false), (90.0, true), (180.0, true)] {
+    // (target's course, what is enough where she has to give way): crossing from own starboard she
+    // has own ship to port and stands on; from own port she gives way, and with the time that the
+    // turn takes 40 degrees are not enough; reciprocal both give way
+    for (course_deg, enough_deg) in [(-90.0, None), (90.0, Some(50.0)), (180.0, Some(40.0))] {
         let early = run(&meeting(course_deg, duty(Manner::Complies, 100.0)), &mut hold());
         let late = run(&meeting(course_deg, duty(Manner::Complies, 40.0)), &mut hold());
         // her bow is half her length, 20 m, ahead of the point that comes nearest
         let bow_s = 20.0 / (geom::unit(deg(course_deg)) * 6.0 - Vec2::new(7.0, 0.0)).norm();
-        if obliged {
+        if let Some(enough_deg) = enough_deg {
             let (at_s, off_deg) = alteration(&early).unwrap();
             assert!((at_s - (50.0 - bow_s)).abs() <= 1.0, "{at_s}");
-            assert!((off_deg - 40.0).abs() < 1e-9, "{off_deg}");
+            assert!((off_deg - enough_deg).abs() < 1e-9_f64, "{off_deg}");
+            assert!(early.pairs[0].minimum.centre_m >= 299.0, "{:?}", early.pairs[0].minimum);
             let (at_s, off_deg) = alteration(&late).unwrap();
             assert!((at_s - (110.0 - bow_s)).abs() <= 1.0, "{at_s}");
             assert!(off_deg >= 40.0 - 1e-9, "{off_deg}");
