@@ -61,8 +61,8 @@ pub struct ConductSpec {
     pub planner: Option<String>,
 }
 
-/// Laws of a route. Its first leg is the course and speed at the start, so that the encounter is the
-/// one that was asked for until she comes to her first waypoint.
+/// Laws of a route. Its first leg is the course and speed at the start, so that the encounter is
+/// the one that was asked for until she comes to her first waypoint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrackSpec {

@@ -316,9 +316,5 @@ impl<'a> Request<'a> {
 }
 
 fn start_of(placed: &Placed) -> Motion {
-    Motion {
-        position_m: placed.position_m,
-        psi_rad: placed.psi_rad,
-        speed_mps: placed.speed_mps,
-    }
+    Motion { position_m: placed.position_m, psi_rad: placed.psi_rad, speed_mps: placed.speed_mps }
 }

@@ -71,7 +71,7 @@ fn bearing_when_nearest_deg(trace: &Trace) -> f64 {
     let (own, target) = (&trace.own, &trace.targets[0]);
     let range_m = |k: &usize| (own.position_m(*k) - target.position_m(*k)).norm();
     let nearest = (0..trace.samples()).min_by(|a, b| range_m(a).total_cmp(&range_m(b)));
-    bearing_deg(trace, nearest.unwrap())
+    bearing_deg(trace, nearest.expect("a run has a sample"))
 }
 
 /// She comes up from astern, own ship a little to one side of her course: she turns to the other

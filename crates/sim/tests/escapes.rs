@@ -84,7 +84,7 @@ proptest! {
         fork_is_the_run(&meeting, if inertia { viknes() } else { kinematic() }, instant, manoeuvre);
     }
 
-    /// A whole run that ends in the manoeuvre says what the fork says, where the hulls do not graze.
+    /// A whole run that ends in the manoeuvre says what the fork says, where no hulls graze.
     #[test]
     fn evasion_is_what_the_fork_says(
         course in -3.1f64..3.1, speed in 2f64..11.0, length in 8f64..100.0, miss in -60f64..60.0,
@@ -98,7 +98,8 @@ proptest! {
             ..Meeting::default()
         };
         prop_assume!(meeting_is_apart(&meeting));
-        let encounter = meeting.encounter(if inertia { viknes() } else { kinematic() }, kinematic());
+        let own = if inertia { viknes() } else { kinematic() };
+        let encounter = meeting.encounter(own, kinematic());
         let nominal = sim::nominal(&encounter).unwrap();
         let mut escapes = Escapes::new(&encounter, &nominal).unwrap();
         let instant = instant.min(escapes.instants(0) - 1);
