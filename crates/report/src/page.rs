@@ -345,12 +345,14 @@ fn unavoidable(whole: &Group) -> Option<String> {
     AvoidableRates::new(&whole.tally).map(|without| {
         let line = |rate: &BoundedRate| format!("{} of {} ({})", rate.k, rate.n, bounds(rate));
         format!(
-            "Of {} encounters that were searched for an escape, {} had none for own ship alone; {} \
-             of those ended in a collision or an unknown outcome. They stay in every rate. Without \
-             them: collisions {}, safety radius broken {}.",
-            count(asked),
+            "{} of {} runs ended in a contact that own ship could not have avoided: hard over by \
+             90 or 180 degrees to either side, full astern, both, or nothing, begun at any beat \
+             from her first track of the ship that she hit on, the others being as they were, \
+             clears not all. They stay in every rate. Without them: collisions {}, safety radius \
+             broken {}; only runs that failed can be left out so, and these numbers are no rates \
+             of a population.",
             count(whole.tally.unavoidable),
-            count(whole.tally.unavoidable_failed),
+            count(asked),
             line(&without.collision),
             line(&without.safety_radius),
         )
