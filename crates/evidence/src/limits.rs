@@ -32,7 +32,7 @@ pub(crate) struct Defect {
 }
 
 /// Known defects of the bench.
-pub(crate) const DEFECTS: [Defect; 8] = [
+pub(crate) const DEFECTS: [Defect; 6] = [
     Defect {
         id: "D1",
         text: "Exports (GeoJSON, MCAP, DNV) lay an encounter at a place in the North Sea; a \
@@ -75,19 +75,6 @@ pub(crate) const DEFECTS: [Defect; 8] = [
                through.",
         effect: "A mistake of that size could be in them unseen; the second judge and the gate's \
                  self-test are the nets behind.",
-    },
-    Defect {
-        id: "D7",
-        text: "A target that complies always alters to starboard, also when she overtakes and own \
-               ship is close on that side, and in restricted visibility she keeps the rules of \
-               vessels in sight.",
-        effect: "Some contacts with targets that comply are theirs and count against the planner.",
-    },
-    Defect {
-        id: "D8",
-        text: "Whether a contact could be avoided is asked along the track without avoidance and \
-               of ships alone: what own ship did before, and land, are left out.",
-        effect: "Fewer encounters are called unavoidable than are.",
     },
 ];
 
