@@ -175,8 +175,12 @@ fn corner_to_edge_m(corners: &[Vec2], outline: &[Vec2]) -> f64 {
     let mut least_m = f64::INFINITY;
     for corner in corners {
         for i in 0..outline.len() {
-            let (from, to) = (outline[i], outline[(i + 1) % outline.len()]);
-            least_m = least_m.min(geom::segment_min_distance(from - corner, to - corner).0);
+            let (from, to) = (outline[i] - corner, outline[(i + 1) % outline.len()] - corner);
+            // from the nearer end: a mirror image runs through its edges the other way round,
+            // and the last bits of the distance depend on where the way begins
+            let (from, to) =
+                if from.norm_squared() <= to.norm_squared() { (from, to) } else { (to, from) };
+            least_m = least_m.min(geom::segment_min_distance(from, to).0);
         }
     }
     least_m
