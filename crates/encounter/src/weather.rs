@@ -44,7 +44,7 @@ pub struct WindSpec {
     pub gust_sd_per_speed: f64,
     /// Time constant of gusts, seconds.
     pub gust_time_constant_s: f64,
-    /// Leeway as a share of the wind across the heading.
+    /// Leeway as a share of the wind across the heading, for ships whose model has no areas.
     pub leeway: f64,
 }
 

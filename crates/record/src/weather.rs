@@ -28,15 +28,15 @@ pub struct Fluctuation {
     pub time_constant_s: f64,
 }
 
-/// Wind. A ship drifts to leeward by a share of its component across her heading; along her
-/// heading her engine makes up for it.
+/// Wind. A ship drifts to leeward by the force on her projected areas, or where her model has none
+/// by a share of the wind across her heading; along her heading her engine makes up for it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Wind {
     /// Mean, metres a second towards north and east (where it blows to).
     pub velocity_mps: Vec2,
     /// Gusts along the mean direction.
     pub gusts: Fluctuation,
-    /// Leeway as a share of the wind across the heading.
+    /// Leeway as a share of the wind across the heading, for ships whose model has no areas.
     pub leeway: f64,
 }
 

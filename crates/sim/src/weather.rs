@@ -3,11 +3,12 @@
 //! First-order Gauss-Markov processes in their exact discretisation (Gillespie 1996, Physical
 //! Review E 54), started from their stationary law. Current and gusts are the same for all ships
 //! and come from the environment stream of ship 0; waves are each ship's own. Nothing depends on
-//! what a ship does but the leeway, which goes with her heading.
+//! what a ship does but the leeway, which goes with her heading and speed.
 
 use crate::ship::{Disturbance, Ship};
+use crate::vessel::{Helm, Model};
 use geom::{HullOutline, Vec2, math};
-use record::{Encounter, Motion, Purpose, Stream, Streams, Vessel, Weather, Wind};
+use record::{Encounter, Motion, Purpose, Stream, Streams, Vessel, Weather};
 
 /// The weather of one run.
 #[derive(Clone, Debug)]
@@ -124,14 +125,14 @@ impl Environment {
         if self.steady {
             return;
         }
-        let known_mps = self.known_mps(number, ship.state.heading);
+        let way = Way { heading: ship.state.heading, ahead_mps: ship.state.surge_mps };
+        let leeway_mps = self.leeway_mps(&ship.model, way, 0.0);
+        let known_mps = self.known_mps(number, leeway_mps);
         let mut drift_mps = Vec2::new(self.current_off[0].value(), self.current_off[1].value());
         let mut yaw_rate_radps = 0.0;
-        if let Some(wind) = &self.weather.wind {
-            let speed_mps = wind.velocity_mps.norm();
-            if speed_mps > 0.0 {
-                drift_mps += leeway_mps(wind, ship.state.heading) * (self.gust.value() / speed_mps);
-            }
+        let gust_mps = self.gust.value();
+        if gust_mps.abs() > 0.0 {
+            drift_mps += self.leeway_mps(&ship.model, way, gust_mps) - leeway_mps;
         }
         if let Some(sea) = self.seas.get(number) {
             drift_mps += Vec2::new(sea.drift[0].value(), sea.drift[1].value()) * sea.share;
@@ -142,16 +143,34 @@ impl Environment {
     }
 
     /// The part of the drift that a ship's navigator knows, m/s: constant current, leeway in the
-    /// mean wind at this heading, mean drift by waves.
-    pub fn known_mps(&self, number: usize, heading: Vec2) -> Vec2 {
-        let mut known_mps = self.weather.current_mps;
-        if let Some(wind) = &self.weather.wind {
-            known_mps += leeway_mps(wind, heading);
-        }
+    /// mean wind, mean drift by waves.
+    fn known_mps(&self, number: usize, leeway_mps: Vec2) -> Vec2 {
+        let mut known_mps = self.weather.current_mps + leeway_mps;
         if let (Some(waves), Some(sea)) = (&self.weather.waves, self.seas.get(number)) {
             known_mps += waves.drift_mps * sea.share;
         }
         known_mps
+    }
+
+    /// Leeway of a ship, m/s, in the mean wind and a gust along it: by the wind on her projected
+    /// areas, or where her model has none a share of the wind across her heading.
+    fn leeway_mps(&self, model: &Model, way: Way, gust_mps: f64) -> Vec2 {
+        let Some(wind) = &self.weather.wind else { return Vec2::zeros() };
+        let mean_mps = wind.velocity_mps.norm();
+        if mean_mps <= 0.0 {
+            return Vec2::zeros();
+        }
+        let wind_mps = wind.velocity_mps * (1.0 + gust_mps / mean_mps);
+        let Way { heading, ahead_mps } = way;
+        let abeam = Vec2::new(-heading.y, heading.x);
+        let leeway_mps = match model {
+            Model::ThreeDof(ship) => {
+                let air_mps = wind_mps - self.weather.current_mps;
+                ship.leeway_mps([air_mps.dot(&heading) - ahead_mps, air_mps.dot(&abeam)])
+            }
+            Model::Kinematic(_) | Model::Nomoto(_) => wind.leeway * wind_mps.dot(&abeam),
+        };
+        abeam * leeway_mps
     }
 
     /// Own ship and the targets at time 0; `None` where a model is not known.
@@ -173,13 +192,27 @@ impl Environment {
         vessel: &Vessel,
         start: &Motion,
     ) -> Option<Ship> {
-        let known_mps = self.known_mps(number, geom::unit(start.psi_rad));
+        let model = Model::of(vessel)?;
+        let mut way = Way { heading: geom::unit(start.psi_rad), ahead_mps: start.speed_mps };
+        let mut known_mps = self.known_mps(number, self.leeway_mps(&model, way, 0.0));
+        // leeway and the angle at which she lies depend on one another
+        for _ in 0..LIES_ROUNDS {
+            let lies = Helm::over_ground(start.psi_rad, start.speed_mps, known_mps);
+            if start.speed_mps > 0.0 {
+                way = Way { heading: lies.direction, ahead_mps: lies.speed_mps };
+            }
+            known_mps = self.known_mps(number, self.leeway_mps(&model, way, 0.0));
+        }
         Ship::new(hull, vessel, start, known_mps)
     }
 }
 
-/// Leeway of a ship in the mean wind, m/s: a share of its part across her heading.
-fn leeway_mps(wind: &Wind, heading: Vec2) -> Vec2 {
-    let abeam = Vec2::new(-heading.y, heading.x);
-    abeam * (wind.leeway * wind.velocity_mps.dot(&abeam))
+/// Heading and speed through the water.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    heading: Vec2,
+    ahead_mps: f64,
 }
+
+/// Rounds in which a ship finds the angle at which she lies at the start.
+const LIES_ROUNDS: usize = 4;

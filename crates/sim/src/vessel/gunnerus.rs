@@ -1,11 +1,12 @@
 //! R/V Gunnerus, the 31.25 m research vessel of NTNU, with two azimuth thrusters at the stern.
 //!
-//! Mass, added mass, damping, force limits, lever and actuator rates come from the default
-//! parameters of NTNU's colav-simulator (`core/models.py`, MIT licence). The source's added mass
-//! couples sway and yaw by -473,278 and -571,162 kg m; here both are their mean, for a matrix that
-//! is not symmetric has no kinetic energy. The gains are ours.
+//! Mass, added mass, damping, force limits, lever, actuator rates, areas above the water and
+//! coefficients of the wind come from the default parameters of NTNU's colav-simulator
+//! (`core/models.py`, MIT licence). The source's added mass couples sway and yaw by -473,278 and
+//! -571,162 kg m; here both are their mean, for a matrix that is not symmetric has no kinetic
+//! energy. The gains are ours.
 
-use super::{Autopilot, Damping, MassMatrix, Propulsion, Rates, Steering, ThreeDof};
+use super::{Autopilot, Damping, MassMatrix, Propulsion, Rates, Steering, ThreeDof, Windage};
 
 /// Largest force of the two thrusters together, N.
 const THRUST_N_MAX: f64 = 154_273.0;
@@ -37,6 +38,14 @@ pub static GUNNERUS: ThreeDof = ThreeDof {
             thrust_nps: THRUST_N_MAX / 3.0,
             side_nps: THRUST_N_MAX * 0.523_598_775_598_298_8,
         }),
+    },
+    windage: Windage {
+        frontal_m2: 115.2,
+        lateral_m2: 375.0,
+        head_drag: 0.55,
+        stern_drag: 0.65,
+        cross_drag: 0.85,
+        cross_force: 0.6,
     },
     // The steering can brake the turn that the course gain asks for:
     // 0.105 rad/s * 0.1 / s < 92,564 N * 15.56 m / 54.6e6 kg m^2.

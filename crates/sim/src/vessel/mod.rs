@@ -14,6 +14,7 @@ mod stopping;
 mod three_dof;
 pub mod trial;
 mod viknes;
+mod windage;
 
 pub use autopilot::Autopilot;
 pub use frigate::FRIGATE;
@@ -25,6 +26,7 @@ pub use slew::{Actuators, Rates, Steering};
 pub use stopping::stopping;
 pub use three_dof::{Damping, MassMatrix, Propulsion, ThreeDof};
 pub use viknes::VIKNES;
+pub use windage::Windage;
 
 use geom::Vec2;
 use record::Vessel;

@@ -13,6 +13,7 @@
 
 use super::autopilot::Autopilot;
 use super::slew::{Rates, Reach, Steering, reach};
+use super::windage::Windage;
 use super::{Actuators, Helm, Limits, State};
 use geom::{Vec2, math};
 
@@ -29,6 +30,8 @@ pub struct ThreeDof {
     pub damping: [Damping; 3],
     /// Thrust and rudder.
     pub propulsion: Propulsion,
+    /// What the wind finds above the water.
+    pub windage: Windage,
     /// Gains.
     pub autopilot: Autopilot,
     /// Declared largest yaw rate, rad/s; the autopilot asks for no more.
@@ -226,6 +229,12 @@ impl ThreeDof {
     /// Thrust that holds a speed straight ahead, N.
     pub(super) fn thrust_at_n(&self, speed_mps: f64) -> f64 {
         self.damping[0].force(speed_mps)
+    }
+
+    /// Leeway (m/s to starboard) in air that moves past her at these speeds ahead and to starboard.
+    pub fn leeway_mps(&self, air_mps: [f64; 2]) -> f64 {
+        let sway = &self.damping[1];
+        self.windage.leeway_mps(air_mps, sway.linear, sway.quadratic)
     }
 
     /// Moves through `dt_s` seconds with engine and rudder off.

@@ -1,10 +1,10 @@
 //! Viknes 830, an 8.45 m motor boat used as an unmanned test vessel.
 //!
-//! Mass, damping, force limits and the lever of the steering come from the default parameters of
-//! NTNU's colav-simulator (`core/models.py`, MIT licence), which gives no added mass. The gains are
-//! ours.
+//! Mass, damping, force limits, the lever of the steering, areas above the water and coefficients of
+//! the wind come from the default parameters of NTNU's colav-simulator (`core/models.py`, MIT
+//! licence), which gives no added mass. The gains are ours.
 
-use super::{Autopilot, Damping, MassMatrix, Propulsion, Steering, ThreeDof};
+use super::{Autopilot, Damping, MassMatrix, Propulsion, Steering, ThreeDof, Windage};
 use geom::units::deg;
 
 /// Viknes 830: length 8.45 m, beam 2.71 m.
@@ -26,6 +26,14 @@ pub static VIKNES: ThreeDof = ThreeDof {
         // the source gives a force and no angle
         steering: Steering::Proportional { angle_rad_max: deg(35.0) },
         rates: None,
+    },
+    windage: Windage {
+        frontal_m2: 9.485,
+        lateral_m2: 13.308_75,
+        head_drag: 0.55,
+        stern_drag: 0.6,
+        cross_drag: 0.85,
+        cross_force: 0.6,
     },
     // Critically damped together; the steering can brake the turn that the course gain asks for:
     // 0.262 rad/s * 0.35 / s < 645 N * 4 m / 19703 kg m^2.
