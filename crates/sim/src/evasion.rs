@@ -11,7 +11,7 @@ use crate::world::{Scratch, run_among};
 use geom::wrap;
 use planner_api::{Command, Mission, OwnState, Planner, Situation};
 use record::{Encounter, Order, Outcome, RunUntil, Sensing};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::atomic::AtomicU64;
 
 /// One run, ready to be ended otherwise.
@@ -72,8 +72,9 @@ impl<'a> Pilot<'a> {
         let (course_rad, speed_mps) = match self.manoeuvre {
             None => (course_rad, speed_mps),
             Some(Manoeuvre::QuarterTurn(side)) => (turn(side, FRAC_PI_2), speed_mps),
-            // an order straight back would leave the side open
-            Some(Manoeuvre::HalfTurn(side)) if turned_rad.abs() < FRAC_PI_2 => {
+            // an order straight back would leave the side open; one that is not far ahead of her
+            // course would take the rudder off
+            Some(Manoeuvre::HalfTurn(side)) if turned_rad.abs() < FRAC_PI_4 => {
                 (turn(side, 0.75 * PI), speed_mps)
             }
             Some(Manoeuvre::HalfTurn(side)) => (turn(side, PI), speed_mps),
