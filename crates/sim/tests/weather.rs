@@ -3,7 +3,7 @@
 
 mod scenes;
 
-use geom::{Vec2, units::deg, wrap};
+use geom::{Vec2, math, units::deg, wrap};
 use record::{Encounter, EncounterId, Fluctuation, Purpose, Seed, Streams, Waves, Weather, Wind};
 use scenes::{Meeting, Orders, hold, kinematic, run, viknes};
 use sim::weather::Process;
@@ -127,11 +127,12 @@ fn leeway_comes_from_the_areas_of_a_ship() {
     let seen = |v: Vec2| geom::angle::rotate(v, -trace.own.psi_rad[300]);
     let leeway_mps = seen(over_ground_mps).y;
     let air_mps = seen(wind_mps - over_ground_mps);
-    let gamma_rad = air_mps.y.atan2(air_mps.x);
+    let gamma_rad = geom::angle::direction(air_mps);
     let (frontal_m2, lateral_m2) = (9.485, 13.308_75);
     let along = 0.55 * frontal_m2 / lateral_m2;
-    let coefficient = 0.85 * gamma_rad.sin()
-        / (1.0 - 0.3 * (1.0 - along / 0.85) * (2.0 * gamma_rad).sin().powi(2));
+    let sin_double = math::sin(2.0 * gamma_rad);
+    let oblique = 0.3 * (1.0 - along / 0.85) * (sin_double * sin_double);
+    let coefficient = 0.85 * math::sin(gamma_rad) / (1.0 - oblique);
     let wind_n = 0.5 * 1.225 * air_mps.norm_squared() * coefficient * lateral_m2;
     let damping_n = 200.0 * leeway_mps + 2000.0 * leeway_mps * leeway_mps;
     assert!(leeway_mps > 0.2 && (damping_n / wind_n - 1.0).abs() < 0.02, "{damping_n} {wind_n}");
