@@ -109,8 +109,8 @@ fn heading_and_course_part() {
     }
 }
 
-/// In steady wind she slides to leeward at the speed at which her damping in sway takes the force of
-/// the wind on her side: Blendermann's formula by angles, with the areas and the damping of her
+/// In steady wind she slides to leeward at the speed at which her damping in sway takes the force
+/// of the wind on her side: Blendermann's formula by angles, with the areas and the damping of her
 /// source. The share of the wind that the campaign declares for ships without areas is not asked.
 #[test]
 fn leeway_comes_from_the_areas_of_a_ship() {

@@ -1,7 +1,7 @@
 //! Viknes 830, an 8.45 m motor boat used as an unmanned test vessel.
 //!
-//! Mass, damping, force limits, the lever of the steering, areas above the water and coefficients of
-//! the wind come from the default parameters of NTNU's colav-simulator (`core/models.py`, MIT
+//! Mass, damping, force limits, the lever of the steering, areas above the water and coefficients
+//! of the wind come from the default parameters of NTNU's colav-simulator (`core/models.py`, MIT
 //! licence), which gives no added mass. The gains are ours.
 
 use super::{Autopilot, Damping, MassMatrix, Propulsion, Steering, ThreeDof, Windage};

@@ -3,8 +3,8 @@
 //! The cross force is Blendermann's (1994, Parameter identification of wind loads on ships, Journal
 //! of Wind Engineering and Industrial Aerodynamics 51, in the form of Fossen 2011, section 8.1),
 //! from the air that moves past the ship. She drifts at the speed at which her damping in sway
-//! takes the same force: a balance, without the few seconds in which she comes to it. Her engine and
-//! her steering hold speed and heading against the rest of the wind load.
+//! takes the same force: a balance, without the few seconds in which she comes to it. Her engine
+//! and her steering hold speed and heading against the rest of the wind load.
 
 /// Areas above the water and coefficients of the wind load.
 #[derive(Clone, Copy, Debug, PartialEq)]
