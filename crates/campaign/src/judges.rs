@@ -60,19 +60,15 @@ impl Judges {
     /// Judges one run. Where the last safe instants are wanted they are put into the trace: which
     /// pairs need them, and which turns are left to own ship, is known from a first look.
     pub fn judge(&mut self, encounter: &Encounter, trace: &mut Trace) -> Judged {
-        let mut judgement = self.first.judge(trace);
         trace.last_minute = None;
-        let near_miss_m = self.first.rules().distance.r_nm_m;
-        if let Some(nominal) = trace.nominal.as_ref().filter(|_| self.last_minute)
-            && let Some(found) =
-                last_minute::find(encounter, nominal, &judgement.pairs, near_miss_m)
-        {
-            let again = found.iter().any(Option::is_some);
-            trace.last_minute = Some(found);
-            if again {
-                judgement = self.first.judge(trace);
-            }
+        if self.last_minute && trace.nominal.is_some() {
+            let pairs = self.first.pairs(trace);
+            let near_miss_m = self.first.rules().distance.r_nm_m;
+            let nominal = trace.nominal.as_ref();
+            trace.last_minute =
+                nominal.and_then(|n| last_minute::find(encounter, n, &pairs, near_miss_m));
         }
+        let judgement = self.first.judge(trace);
         let disagreements = self
             .second
             .as_ref()

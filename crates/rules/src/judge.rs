@@ -58,6 +58,16 @@ impl Judge {
     /// Nothing is invented: samples that are missing or not finite, and a run cut before the
     /// closest point, make `inconclusive`; an absent input makes `not_evaluated`.
     pub fn judge(&mut self, trace: &Trace) -> Judgement {
+        self.read(trace, true)
+    }
+
+    /// The facts of each pair alone, at a part of the cost: what must be known before the last safe
+    /// instants are looked for.
+    pub fn pairs(&mut self, trace: &Trace) -> Vec<PairFacts> {
+        self.read(trace, false).pairs
+    }
+
+    fn read(&mut self, trace: &Trace, checks: bool) -> Judgement {
         let targets = trace.targets.len();
         let mut judgement = Judgement {
             pairs: Vec::with_capacity(targets),
@@ -80,8 +90,8 @@ impl Judge {
         for target in (0..targets).filter(|&target| flaws[target].is_none()) {
             lives.push(PairLife::new(trace, &self.rules, target, &mut self.scanner));
         }
-        let bench =
-            Bench { own: &self.own, turns: &self.turns, speeds: &self.speeds, lives: &lives };
+        let (own, turns, speeds) = (&self.own, &self.turns, &self.speeds);
+        let bench = Bench { own, turns, speeds, lives: &lives, checks };
         let mut readable = lives.iter();
         for (target, flaw) in flaws.into_iter().enumerate() {
             match flaw {
@@ -103,9 +113,15 @@ struct Bench<'a> {
     turns: &'a [TurnRun],
     speeds: &'a [SpeedRun],
     lives: &'a [PairLife<'a>],
+    /// Whether there is more to say than the facts.
+    checks: bool,
 }
 
 impl<'a> Bench<'a> {
+    fn all_checks(&self, case: &Case<'_>) -> Vec<Verdict> {
+        if self.checks { all_checks(case) } else { Vec::new() }
+    }
+
     fn judge_pair(&self, life: &PairLife<'_>, scanner: &mut RiskScanner, out: &mut Judgement) {
         let tracked = life.sample(life.pair().tracked_s.unwrap_or(0.0));
         let action = self.action(life, tracked);
@@ -223,7 +239,7 @@ impl<'a> Bench<'a> {
         facts.role = case.role;
         facts.stages_s = case.stages.map(|k| k.map(|k| life.time_s(k)));
         facts.released_s = case.released_s;
-        let mut verdicts = all_checks(&case);
+        let mut verdicts = self.all_checks(&case);
         if onset.ambiguous() && verdicts.iter().any(|verdict| verdict.status == Status::Fail) {
             for other in EncounterClass::ALL {
                 if onset.reachable[other as usize] && other != onset.decides {
@@ -231,7 +247,7 @@ impl<'a> Bench<'a> {
                 }
             }
         }
-        let theirs = facts.class_by_planner.filter(|&class| class != onset.decides);
+        let theirs = facts.class_by_planner.filter(|&class| self.checks && class != onset.decides);
         let by_planner_class = theirs.map(|class| all_checks(&case_of(class)));
         Roles { verdicts, by_planner_class }
     }
@@ -247,7 +263,7 @@ impl<'a> Bench<'a> {
         case.restricted = true;
         case.role = Role::None;
         facts.stages_s = case.stages.map(|k| k.map(|k| life.time_s(k)));
-        all_checks(&case)
+        self.all_checks(&case)
     }
 
     /// Whether an action before onset kept risk from ever opening on the actual track.

@@ -273,6 +273,18 @@ fn every_word_is_what_it_was() {
     panic!("{others} voyages are judged otherwise, first {other:#?}; all: {}", path.display());
 }
 
+/// The first look finds the same facts as the whole judgement.
+#[test]
+fn the_facts_alone_are_those_of_the_judgement() {
+    let mut dice = Dice(20_260_101);
+    let mut judge = Judge::new(rules());
+    for _ in 0..60 {
+        let trace = voyage(&mut dice);
+        let (looked, judged) = (judge.pairs(&trace), judge.judge(&trace).pairs);
+        assert_eq!(format!("{looked:?}"), format!("{judged:?}"));
+    }
+}
+
 /// The voyages put every check to the test, and every status occurs.
 #[test]
 fn the_voyages_reach_every_check() {

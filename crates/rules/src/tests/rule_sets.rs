@@ -2,7 +2,7 @@
 
 use super::*;
 
-const FILES: [(&str, &str); 6] = [
+const FILES: [(&str, &str); 7] = [
     ("usv-oe2023-v1", include_str!("../../../../campaigns/rulesets/usv-oe2023-v1.toml")),
     ("usv-ccta2023-v1", include_str!("../../../../campaigns/rulesets/usv-ccta2023-v1.toml")),
     (
@@ -12,6 +12,7 @@ const FILES: [(&str, &str); 6] = [
     ("merchant-cl-v1", include_str!("../../../../campaigns/rulesets/merchant-cl-v1.toml")),
     ("micro-v1", include_str!("../../../../campaigns/rulesets/micro-v1.toml")),
     ("controls-v1", include_str!("../../../../campaigns/rulesets/controls-v1.toml")),
+    ("torben-stl-v1", include_str!("../../../../campaigns/rulesets/torben-stl-v1.toml")),
 ];
 
 #[test]
