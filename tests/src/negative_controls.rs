@@ -4,13 +4,14 @@
 use campaign::plan::{Build, Plan};
 use campaign::worker::{Shop, Worker};
 use campaign::{CampaignFile, Overrides};
-use record::{Check, Outcome, RunRow, Status};
+use record::{Check, EncounterClass, Outcome, RunRow, Status};
 use std::fs;
 use std::sync::atomic::AtomicU64;
 
 const HEAD_ON: u32 = 0;
 const CROSSING_STBD: u32 = 1;
 const CROSSING_PORT: u32 = 2;
+const STRATA: u32 = 9;
 const ENCOUNTERS: u64 = 60;
 
 fn campaigns(file: &str) -> String {
@@ -132,6 +133,96 @@ fn always_port_is_caught_by_the_side_of_its_turn() {
     assert!(failed(&rows, Check::Turn) > 10 && failed(&rows, Check::R17Port) > 5);
     // it acts at once, and to port; a head-on by the judge's doubt is among them
     blames_only(&rows, &[Check::Turn, Check::R14, Check::R17Hold, Check::R17Port]);
+}
+
+/// The rows of every stratum.
+fn run_all(planner: &str) -> Vec<RunRow> {
+    (0..STRATA).flat_map(|stratum| run(planner, "", stratum)).collect()
+}
+
+/// Whether a rule asks anything of own ship in an encounter of this class, in sight, with one
+/// target.
+fn binds(check: Check, class: EncounterClass) -> bool {
+    use EncounterClass::{CrossingPort, CrossingStbd, HeadOn, Overtaken, Overtaking};
+    let gives_way = matches!(class, HeadOn | CrossingStbd | Overtaking);
+    match check {
+        Check::Safe | Check::LastMinute | Check::R5R7 | Check::R6 => true,
+        // a stand-on ship, too, once she acts
+        Check::R8Magnitude | Check::R8Dribble => true,
+        Check::R8Time | Check::R16 => gives_way,
+        // overtaking, either side is right
+        Check::Turn => class != Overtaking,
+        Check::R13 => class == Overtaking,
+        Check::R14 => class == HeadOn,
+        Check::R15 => class == CrossingStbd,
+        Check::R17Hold | Check::R17Shall => matches!(class, CrossingPort | Overtaken),
+        Check::R17Port => class == CrossingPort,
+        // needs a third ship; never fails; needs fog
+        Check::R8Third | Check::R17May | Check::R19 | Check::R19Speed => false,
+    }
+}
+
+/// Six controls, every stratum, every check: who is caught is caught by a rule that binds her.
+#[test]
+fn no_control_fails_a_check_that_does_not_apply() {
+    for planner in
+        ["hold-course", "always-port", "sign-flip", "late", "blind-to-nearest", "dribble"]
+    {
+        for row in run_all(planner) {
+            for check in Check::ALL {
+                if row.check(check).status == Status::Fail {
+                    let class = row.class.expect("who fails was in an encounter");
+                    assert!(
+                        binds(check, class),
+                        "{planner} {}: {} {class:?}",
+                        row.id,
+                        check.name()
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Against every check: what the exchanged side explains, and for the rest its original fails as
+/// often in the same encounters.
+#[test]
+fn sign_flip_fails_by_its_side_and_else_as_its_original() {
+    let (flipped, original) = (run_all("sign-flip"), run_all("zhuang-latched"));
+    // turns to port; ahead of the other's bow; towards the line of the ship she overtakes; and by
+    // the wrong side too small an action is left, or too close a pass
+    let by_its_side = [Check::Turn, Check::R14, Check::R15, Check::R13, Check::R8Magnitude];
+    let by_its_side = [&by_its_side[..], &[Check::R17Port, Check::Safe]].concat();
+    for check in [Check::R14, Check::R15, Check::R13] {
+        let (n, of) = (failed(&flipped, check), failed(&original, check));
+        assert!(n > of + 10, "{}: {n} and {of}", check.name());
+    }
+    assert!(failed(&flipped, Check::Safe) < 10 && failed(&flipped, Check::R8Magnitude) < 50);
+    for check in Check::ALL.into_iter().filter(|check| !by_its_side.contains(check)) {
+        let (n, of) = (failed(&flipped, check), failed(&original, check));
+        assert!(n <= of + of / 5, "{}: {n} and {of} by its original", check.name());
+    }
+}
+
+/// Against every check: the dribble itself; a ship that must hold and alters all the time; and what
+/// comes of altering too little. It acts at once, so what is failed for time and size is rare.
+#[test]
+fn dribble_fails_by_its_small_turns_and_by_what_comes_of_them() {
+    let rows = run_all("dribble");
+    let of_its_own = [Check::R8Dribble, Check::R17Hold, Check::R17Port, Check::R17Shall];
+    let too_little = [Check::Safe, Check::R13, Check::R15, Check::R16];
+    let rare = [Check::R8Time, Check::R8Magnitude, Check::R14, Check::Turn, Check::LastMinute];
+    blames_only(&rows, &[&of_its_own[..], &too_little[..], &rare[..]].concat());
+    let all = rows.len() as u64;
+    assert!(failed(&rows, Check::R8Dribble) * 10 > all * 8);
+    for check in rare {
+        assert!(failed(&rows, check) * 20 < all, "{}: {}", check.name(), failed(&rows, check));
+    }
+    // too little is that, and no fault of another kind: who fails it there dribbled
+    for row in rows.iter().filter(|row| row.check(Check::R16).status == Status::Fail) {
+        let said = [Check::R8Dribble, Check::R8Time, Check::Safe];
+        assert!(said.iter().any(|c| row.check(*c).status == Status::Fail), "{}", row.id);
+    }
 }
 
 /// Its mirror image, the seed planner with a latch, turns the right way in the same encounters.
