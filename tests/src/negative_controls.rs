@@ -1,11 +1,11 @@
 //! Planners that are broken on purpose, through simulator and judge: each is caught by the verdict
 //! that its `caught_by` names, and by none that does not apply.
 
-use campaign::plan::{Build, Plan};
+use crate::support::{campaign_text, plan_for};
+use campaign::Overrides;
+use campaign::plan::Plan;
 use campaign::worker::{Shop, Worker};
-use campaign::{CampaignFile, Overrides};
 use record::{Check, EncounterClass, Outcome, RunRow, Status};
-use std::fs;
 use std::sync::atomic::AtomicU64;
 
 const HEAD_ON: u32 = 0;
@@ -14,36 +14,15 @@ const CROSSING_PORT: u32 = 2;
 const STRATA: u32 = 9;
 const ENCOUNTERS: u64 = 60;
 
-fn campaigns(file: &str) -> String {
-    let path = format!("{}/../campaigns/{file}.toml", env!("CARGO_MANIFEST_DIR"));
-    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
-}
-
 /// The laboratory for one planner: what a control does wrong is not blamed on a sensor.
 /// Judged by the rule set for the controls.
 fn plan(planner: &str, options: &str) -> Plan {
-    let mut file: toml::Table = campaigns("laboratory").parse().unwrap();
-    let options: toml::Table = options.parse().unwrap();
-    let table = toml::Table::from_iter([(planner.to_owned(), toml::Value::Table(options))]);
-    file.insert("planner".into(), toml::Value::Table(table));
     let overrides = Overrides {
-        planners: vec![planner.to_owned()],
         rules: Some("controls-v1".to_owned()),
         encounters: Some(ENCOUNTERS),
-        seed: None,
+        ..Overrides::default()
     };
-    let build = Build {
-        tool_version: String::new(),
-        git_commit: String::new(),
-        git_clean: true,
-        engine: String::new(),
-        planners: String::new(),
-        cargo_lock_sha256: String::new(),
-        rustc: String::new(),
-    };
-    let rules = |name: &str| Ok(campaigns(&format!("rulesets/{name}")));
-    let file = CampaignFile::parse(&file.to_string(), "laboratory").unwrap();
-    file.resolve(&overrides, None, &planners::registry(), &rules, &build).unwrap().remove(0)
+    plan_for(planner, options, &campaign_text("laboratory"), overrides)
 }
 
 fn run(planner: &str, options: &str, stratum: u32) -> Vec<RunRow> {

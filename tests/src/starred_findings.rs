@@ -3,12 +3,12 @@
 //! a planner without the fault show it less. Which fault is which is known here and in
 //! `docs/seed-planner.md`, and nowhere in the product.
 
-use campaign::plan::{Build, Plan};
+use crate::support::{campaign_text, plan_for};
+use campaign::Overrides;
+use campaign::plan::Plan;
 use campaign::worker::{Shop, Worker};
-use campaign::{CampaignFile, Overrides};
 use record::{Check, EncounterClass, Outcome, Status};
 use std::collections::BTreeMap;
-use std::fs;
 use std::sync::atomic::AtomicU64;
 use summary::{Event, Findings, PlannerEvent, Tally};
 
@@ -103,37 +103,13 @@ fn reported(
     (findings, tally)
 }
 
-fn text(file: &str) -> String {
-    let path = format!("{}/../campaigns/{file}.toml", env!("CARGO_MANIFEST_DIR"));
-    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
-}
-
 fn plan(file: &str, change: Option<(&str, &str)>, by: Under, encounters: u64) -> Plan {
     let (from, to) = change.unwrap_or_default();
-    let whole = text(file);
+    let whole = campaign_text(file);
     assert!(whole.contains(from), "{file} has no {from}");
     let whole = if change.is_some() { whole.replacen(from, to, 1) } else { whole };
-    let mut table: toml::Table = whole.parse().unwrap();
-    let options: toml::Table = by.options.parse().unwrap();
-    let own = toml::Table::from_iter([(by.planner.to_owned(), toml::Value::Table(options))]);
-    table.insert("planner".into(), toml::Value::Table(own));
-    let overrides = Overrides {
-        planners: vec![by.planner.to_owned()],
-        encounters: Some(encounters),
-        ..Overrides::default()
-    };
-    let build = Build {
-        tool_version: String::new(),
-        git_commit: String::new(),
-        git_clean: true,
-        engine: String::new(),
-        planners: String::new(),
-        cargo_lock_sha256: String::new(),
-        rustc: String::new(),
-    };
-    let rules = |name: &str| Ok(text(&format!("rulesets/{name}")));
-    let file = CampaignFile::parse(&table.to_string(), file).unwrap();
-    file.resolve(&overrides, None, &planners::registry(), &rules, &build).unwrap().remove(0)
+    let overrides = Overrides { encounters: Some(encounters), ..Overrides::default() };
+    plan_for(by.planner, by.options, &whole, overrides)
 }
 
 /// In the world that isolates a fault.

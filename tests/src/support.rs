@@ -1,5 +1,7 @@
 //! Runs the binary and reads what it wrote.
 
+use campaign::plan::{Build, Plan};
+use campaign::{CampaignFile, Overrides};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,6 +37,33 @@ pub(crate) fn run_err(folder: &Path, line: &str, code: i32) -> String {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(code), "`seatrial {line}` said: {said}");
     said
+}
+
+/// Text of a file of `campaigns/`, without its `.toml`.
+pub(crate) fn campaign_text(name: &str) -> String {
+    let path = format!("{}/../campaigns/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+/// The plan of a campaign of this text for one planner, with options of its own.
+pub(crate) fn plan_for(planner: &str, options: &str, text: &str, overrides: Overrides) -> Plan {
+    let mut file: toml::Table = text.parse().unwrap();
+    let options: toml::Table = options.parse().unwrap();
+    let own = toml::Table::from_iter([(planner.to_owned(), toml::Value::Table(options))]);
+    file.insert("planner".into(), toml::Value::Table(own));
+    let overrides = Overrides { planners: vec![planner.to_owned()], ..overrides };
+    let build = Build {
+        tool_version: String::new(),
+        git_commit: String::new(),
+        git_clean: true,
+        engine: String::new(),
+        planners: String::new(),
+        cargo_lock_sha256: String::new(),
+        rustc: String::new(),
+    };
+    let rules = |name: &str| Ok(campaign_text(&format!("rulesets/{name}")));
+    let file = CampaignFile::parse(&file.to_string(), planner).unwrap();
+    file.resolve(&overrides, None, &planners::registry(), &rules, &build).unwrap().remove(0)
 }
 
 /// A file of JSON.

@@ -1,6 +1,6 @@
 //! What a planner sees at a beat.
 
-use geom::Vec2;
+use geom::{Vec2, angle};
 use serde::{Deserialize, Serialize};
 
 /// One beat. Metres north and east, radians clockwise from north, metres a second.
@@ -34,6 +34,22 @@ pub struct OwnState {
     pub stw_mps: f64,
     /// Yaw rate, rad/s.
     pub yaw_rate_radps: f64,
+}
+
+impl OwnState {
+    /// On a steady course through still water; metres north and east, radians clockwise from
+    /// north, m/s.
+    pub fn steady(position_m: Vec2, course_rad: f64, speed_mps: f64) -> Self {
+        Self {
+            position_m,
+            psi_rad: course_rad,
+            velocity_mps: angle::unit(course_rad) * speed_mps,
+            cog_rad: course_rad,
+            sog_mps: speed_mps,
+            stw_mps: speed_mps,
+            yaw_rate_radps: 0.0,
+        }
+    }
 }
 
 /// A tracked target.

@@ -78,15 +78,7 @@ fn mission() -> Mission {
 }
 
 fn own(y_m: f64) -> OwnState {
-    OwnState {
-        position_m: Vec2::new(0.0, y_m),
-        psi_rad: 0.0,
-        velocity_mps: Vec2::new(8.0, 0.0),
-        cog_rad: 0.0,
-        sog_mps: 8.0,
-        stw_mps: 8.0,
-        yaw_rate_radps: 0.0,
-    }
+    OwnState::steady(Vec2::new(0.0, y_m), 0.0, 8.0)
 }
 
 fn target(id: u32, x_m: f64, y_m: f64, course_deg: f64, sog_mps: f64) -> TargetTrack {

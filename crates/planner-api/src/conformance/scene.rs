@@ -32,15 +32,7 @@ impl Scene {
         let position_m = Vec2::new(between(-500.0, 500.0), between(-500.0, 500.0));
         let off_rad = between(-0.1, 0.1);
         let goal_m = position_m + angle::unit(wrap(psi_rad + off_rad)) * between(3000.0, 6000.0);
-        let own = OwnState {
-            position_m,
-            psi_rad,
-            velocity_mps: angle::unit(psi_rad) * speed_mps,
-            cog_rad: psi_rad,
-            sog_mps: speed_mps,
-            stw_mps: speed_mps,
-            yaw_rate_radps: 0.0,
-        };
+        let own = OwnState::steady(position_m, psi_rad, speed_mps);
         let targets = (0..1 + number % 4)
             .map(|id| {
                 // meets own ship after this time, but for a miss in any direction

@@ -113,15 +113,7 @@ mod tests {
 
     #[test]
     fn a_ship_abeam_takes_half_her_beam_and_one_ahead_half_her_length() {
-        let own = OwnState {
-            position_m: Vec2::zeros(),
-            psi_rad: 0.0,
-            velocity_mps: Vec2::new(8.0, 0.0),
-            cog_rad: 0.0,
-            sog_mps: 8.0,
-            stw_mps: 8.0,
-            yaw_rate_radps: 0.0,
-        };
+        let own = OwnState::steady(Vec2::zeros(), 0.0, 8.0);
         let track = TargetTrack {
             id: 1,
             position_m: Vec2::new(1000.0, 90.0),

@@ -10,10 +10,12 @@
 //! | one reference obstacle (F11, F12) | every candidate is checked against every target | [`search`] |
 //! | point without inertia (F19) | predicted turn with own ship's limits | [`path`] |
 //! | targets known perfectly | steady lines, margins that grow with the doubt | [`steady`], [`own_motion`] |
+//! | no land | every path keeps clear of the chart's polygons | [`land`] |
 //! | returns too early (F14) | only when the wish is clear of every target | [`planner`] |
 
 pub mod encounter;
 pub mod gap;
+pub mod land;
 pub mod observe;
 pub mod options;
 pub mod own_motion;

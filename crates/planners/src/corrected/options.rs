@@ -40,6 +40,8 @@ pub struct CorrectedOptions {
     /// A target is watched for this long before she is classed, unless she is near, seconds: a
     /// young track has hardly a course.
     pub watch_s: f64,
+    /// Distance kept between own hull and land, metres, where the route leaves as much.
+    pub land_m: f64,
     /// Share of own ship's turn rate and acceleration that the prediction trusts.
     pub trusted_share: f64,
     /// Time from an order to its first effect, seconds.
@@ -67,6 +69,7 @@ impl Default for CorrectedOptions {
             sigmas: 1.0,
             sigma_m_max: 80.0,
             watch_s: 25.0,
+            land_m: 40.0,
             trusted_share: 0.6,
             lag_s: 3.0,
             radius: RadiusKind::Mission,
@@ -97,6 +100,7 @@ impl CorrectedOptions {
         within("stand_on_patience_s", self.stand_on_patience_s, 0.0, 1e6)?;
         within("sigmas", self.sigmas, 0.0, 10.0)?;
         within("sigma_m_max", self.sigma_m_max, 0.0, 1e5)?;
+        within("land_m", self.land_m, 0.0, 1e4)?;
         within("watch_s", self.watch_s, 0.0, 1e6)?;
         within("unknown_length_m", self.unknown_length_m, 0.0, 1e4)?;
         within("trusted_share", self.trusted_share, 0.05, 1.0)?;

@@ -97,6 +97,13 @@ impl Path {
         (t_s + after_s, at_m + self.velocity_mps * after_s)
     }
 
+    /// The path in pieces, and its straight end for so long, metres from own present position.
+    pub fn legs(&self, straight_s: f64) -> impl Iterator<Item = [Vec2; 2]> + '_ {
+        let end_m = self.points.last().map_or_else(Vec2::zeros, |point| point.1);
+        let turning = self.points.windows(2).map(|pair| [pair[0].1, pair[1].1]);
+        turning.chain([[end_m, end_m + self.velocity_mps * straight_s]])
+    }
+
     /// Against a target at `from_own_m` with this velocity.
     pub fn passing(&self, from_own_m: Vec2, velocity_mps: Vec2) -> Passing {
         let los_m = |&(t_s, own_m): &(f64, Vec2)| from_own_m + velocity_mps * t_s - own_m;
@@ -125,15 +132,7 @@ mod tests {
     use geom::units::deg;
 
     fn own() -> OwnState {
-        OwnState {
-            position_m: Vec2::new(50.0, -20.0),
-            psi_rad: 0.0,
-            velocity_mps: Vec2::new(8.0, 0.0),
-            cog_rad: 0.0,
-            sog_mps: 8.0,
-            stw_mps: 8.0,
-            yaw_rate_radps: 0.0,
-        }
+        OwnState::steady(Vec2::new(50.0, -20.0), 0.0, 8.0)
     }
 
     const AGILITY: Agility =

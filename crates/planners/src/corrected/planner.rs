@@ -1,6 +1,7 @@
 //! The corrected planner's beat.
 
 use super::encounter::Encounter;
+use super::land::Land;
 use super::options::CorrectedOptions;
 use super::own_motion::OwnMotion;
 use super::path::{Agility, Path, Trial};
@@ -23,6 +24,8 @@ const RETURN_SPARE_M: f64 = 25.0;
 const AGAIN_SHARE: f64 = 0.5;
 /// A wish farther off the present course than this is the next leg of the route.
 const LEG_CHANGE_RAD: f64 = deg(75.0);
+/// Smallest alteration for land alone, degrees: it has no watch that must see it.
+const LAND_ALTERATION_DEG: f64 = 10.0;
 /// An alteration counts as made this much below its size, radians.
 const MADE_WITHIN_RAD: f64 = deg(2.0);
 
@@ -41,6 +44,7 @@ pub struct ZhuangCorrected {
     pub(super) manoeuvre: Option<Manoeuvre>,
     /// A manoeuvre for the present encounters has ended.
     returned: bool,
+    land: Land,
     path: Path,
     events: PlannerEvents,
 }
@@ -48,6 +52,7 @@ pub struct ZhuangCorrected {
 /// What the mission fixes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fixed {
+    half_length_m: f64,
     pub(super) clearance: Clearance,
     pub(super) agility: Agility,
     pub(super) safety_radius_m: f64,
@@ -79,6 +84,7 @@ impl ZhuangCorrected {
             targets: Vec::new(),
             manoeuvre: None,
             returned: false,
+            land: Land::default(),
             path: Path::default(),
             events: PlannerEvents::default(),
         }
@@ -86,14 +92,18 @@ impl ZhuangCorrected {
 
     fn act(&mut self, own: &OwnState, wish: Wish, fixed: Fixed) -> Trial {
         let straight_on = self.straight_on(wish);
-        let must_act = self.targets.iter().any(|t| t.encounter.is_some_and(|e| e.asks_to_act()));
+        let ships_ask = self.targets.iter().any(|t| t.encounter.is_some_and(|e| e.asks_to_act()));
+        self.path.predict(own, straight_on, fixed.agility);
+        let must_act = ships_ask || self.land.lack_m(&self.path) > 0.0;
         let Some(mut manoeuvre) = self.manoeuvre else {
             // after a return the doubt must be larger, or own ship would waver
             let least_m = if self.returned { AGAIN_SHARE * self.options.margin_m } else { 0.0 };
             if !must_act || self.shortfall_m(own, straight_on, fixed) <= least_m {
                 return straight_on;
             }
-            let reference = self.reference(own, wish);
+            let alteration_deg =
+                if ships_ask { self.options.alteration_deg } else { LAND_ALTERATION_DEG };
+            let reference = self.reference(own, wish, deg(alteration_deg));
             let choice = self.search(own, reference, fixed);
             self.manoeuvre = Some(Manoeuvre { reference, trial: choice.trial, made: false });
             // own ship's heading says nothing of the class from here on
@@ -105,6 +115,10 @@ impl ZhuangCorrected {
             self.manoeuvre = None;
             self.returned = true;
             return straight_on;
+        }
+        if ships_ask {
+            // what began for land alone has to be apparent from here on
+            manoeuvre.reference.alteration_rad = deg(self.options.alteration_deg);
         }
         let lost_m = self.shortfall_m(own, manoeuvre.trial, fixed);
         if lost_m > TOLERATED_LOSS * self.options.margin_m {
@@ -119,7 +133,7 @@ impl ZhuangCorrected {
 
     /// Offsets count from the wish, so that a second manoeuvre on the way back does not add to the
     /// first; but on the way into another leg of the route from the present course.
-    fn reference(&self, own: &OwnState, wish: Wish) -> Reference {
+    fn reference(&self, own: &OwnState, wish: Wish, alteration_rad: f64) -> Reference {
         let drift_mps = self.motion.drift_mps();
         let through_water_mps = wish.velocity_mps() - drift_mps;
         let wished_rad = angle::direction(through_water_mps);
@@ -128,7 +142,7 @@ impl ZhuangCorrected {
             psi_rad: if turning { own.psi_rad } else { wished_rad },
             stw_mps: through_water_mps.norm(),
             drift_mps,
-            alteration_rad: deg(self.options.alteration_deg),
+            alteration_rad,
             wish_mps: wish.velocity_mps(),
         }
     }
@@ -137,12 +151,14 @@ impl ZhuangCorrected {
     fn is_clear(&mut self, own: &OwnState, trial: Trial, fixed: Fixed) -> bool {
         self.path.predict(own, trial, fixed.agility);
         let path = &self.path;
-        self.targets.iter().all(|target| {
-            let passing = path.passing(target.from_own_m, target.velocity_mps);
-            let range_m = target.from_own_m.norm();
-            passing.range_m_min >= (target.plan_m + RETURN_SPARE_M).min(range_m - RETURN_SPARE_M)
-                || target.encounter.is_none() && passing.range_m_min >= target.plan_m
-        })
+        self.land.lack_m(path) <= 0.0
+            && self.targets.iter().all(|target| {
+                let passing = path.passing(target.from_own_m, target.velocity_mps);
+                let range_m = target.from_own_m.norm();
+                passing.range_m_min
+                    >= (target.plan_m + RETURN_SPARE_M).min(range_m - RETURN_SPARE_M)
+                    || target.encounter.is_none() && passing.range_m_min >= target.plan_m
+            })
     }
 
     /// The wish, but not to port of the course that a stand-on ship had when risk began.
@@ -158,13 +174,14 @@ impl ZhuangCorrected {
 
     fn search(&mut self, own: &OwnState, reference: Reference, fixed: Fixed) -> search::Choice {
         self.events.passes += 1;
-        search::cheapest(own, reference, &self.targets, fixed.agility, &mut self.path)
+        let around = (self.targets.as_slice(), &self.land);
+        search::cheapest(own, reference, around, fixed.agility, &mut self.path)
     }
 
     /// By how much the order misses the planned distance to the worst target, metres.
     fn shortfall_m(&mut self, own: &OwnState, trial: Trial, fixed: Fixed) -> f64 {
         self.path.predict(own, trial, fixed.agility);
-        search::judge(&self.path, &self.targets).0
+        search::judge(&self.path, &self.targets, &self.land).0
     }
 }
 
@@ -172,7 +189,9 @@ impl Planner for ZhuangCorrected {
     fn reset(&mut self, mission: &Mission) {
         let CorrectedOptions { radius, unknown_length_m, trusted_share, lag_s, .. } = self.options;
         self.guidance.reset(mission);
+        self.land.reset(mission);
         self.fixed = Some(Fixed {
+            half_length_m: 0.5 * mission.own.length_m,
             clearance: Clearance::new(mission, radius, unknown_length_m),
             agility: Agility::new(&mission.own, trusted_share, lag_s),
             safety_radius_m: mission.safety_radius_m,
@@ -194,7 +213,10 @@ impl Planner for ZhuangCorrected {
         let own = self.motion.note(situation.t_s, &situation.own, self.ordered_mps);
         let alerts = self.observe(situation, &own, wish, fixed);
         self.returned &= !self.encounters.is_empty();
-        let trial = if self.encounters.is_empty() && self.manoeuvre.is_none() {
+        let keep_m = self.options.land_m + fixed.half_length_m;
+        self.land.look(own.position_m, fixed.speed_mps_max, keep_m);
+        let nobody = self.encounters.is_empty() && self.manoeuvre.is_none();
+        let trial = if nobody && !self.land.is_near() {
             Trial { course_rad: wish.course_rad(), speed_mps: wish.speed_mps }
         } else {
             self.act(&own, wish, fixed)

@@ -2,6 +2,7 @@
 //! apparent alterations, each checked against every target.
 
 use super::encounter::Encounter;
+use super::land::Land;
 use super::path::{Agility, Path, Trial};
 use crate::zhuang::{equations, planner::ccw};
 use geom::{EncounterClass, Vec2, angle, cpa, math, units::deg, wrap};
@@ -79,10 +80,10 @@ pub struct Choice {
     pub shortfall_m: f64,
 }
 
-/// The largest lack of distance to any target on the path, metres, and whether a target that has
-/// to be left to port is not.
-pub fn judge(path: &Path, targets: &[Target]) -> (f64, bool) {
-    let mut shortfall_m = 0.0f64;
+/// The largest lack of distance to any target or to land on the path, metres, and whether a target
+/// that has to be left to port is not.
+pub fn judge(path: &Path, targets: &[Target], land: &Land) -> (f64, bool) {
+    let mut shortfall_m = land.lack_m(path);
     let mut wrong_hand = false;
     for target in targets {
         let passing = path.passing(target.from_own_m, target.velocity_mps);
@@ -99,7 +100,7 @@ pub fn judge(path: &Path, targets: &[Target]) -> (f64, bool) {
 pub fn cheapest(
     own: &OwnState,
     reference: Reference,
-    targets: &[Target],
+    (targets, land): (&[Target], &Land),
     agility: Agility,
     path: &mut Path,
 ) -> Choice {
@@ -117,7 +118,7 @@ pub fn cheapest(
                 return;
             }
             path.predict(own, trial, agility);
-            let (shortfall_m, wrong_hand) = judge(path, targets);
+            let (shortfall_m, wrong_hand) = judge(path, targets, land);
             let hand_cost = if wrong_hand { WRONG_HAND_COST_DEG } else { 0.0 };
             let minutes = minutes_until_clear(path, reference.wish_mps, targets);
             let cost = effort

@@ -1,15 +1,15 @@
 //! F15: beside the border of two classes, a degree of noise in a target's course changes the side
 //! on every beat.
 
-use crate::scene::{Scene, Vessel, course_speed, own_state, planner, track};
+use crate::scene::{Scene, Vessel, course_speed, planner, track};
 use geom::{Vec2, units::deg, wrap};
-use planner_api::{Planner, Situation};
+use planner_api::{OwnState, Planner, Situation};
 
 /// A target 700 m ahead on a collision course; its course is seen 9.5 degrees from reciprocal, then
 /// 10.5, and so on. The head-on sector ends at 10.
 fn changes_of_side(planner: &mut dyn Planner) -> u32 {
     planner.reset(&Scene::paper(6000.0, &[]).mission());
-    let own = own_state(Vec2::zeros(), 0.0, 8.0);
+    let own = OwnState::steady(Vec2::zeros(), 0.0, 8.0);
     let mut changes = 0;
     let mut last = 0.0;
     for beat in 0..20 {

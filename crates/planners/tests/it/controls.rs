@@ -2,7 +2,7 @@
 
 use crate::scene::{Scene, Vessel, planner};
 use geom::wrap;
-use planner_api::Situation;
+use planner_api::{OwnState, Situation};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -76,7 +76,7 @@ fn the_share_is_drawn_from_the_planners_own_stream() {
         let mission = planner_api::Mission { stream_seed, ..scene.mission() };
         nan.reset(&mission);
         let tracks = scene.tracks(0.0, scene.own.position_m());
-        let own = crate::scene::own_state(scene.own.position_m(), 0.0, 8.0);
+        let own = OwnState::steady(scene.own.position_m(), 0.0, 8.0);
         let situation = Situation { t_s: 0.0, own, tracks: &tracks, visual_range_m: None };
         armed += u32::from(nan.plan(&situation).order.checked(12.0, 0.0).is_err());
     }

@@ -7,6 +7,7 @@ mod controls;
 mod figures;
 mod findings;
 mod isolated;
+mod land;
 mod memory;
 mod random;
 mod rivals;

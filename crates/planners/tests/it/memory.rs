@@ -1,14 +1,14 @@
 //! What the seed planner remembers, beat by beat.
 
-use crate::scene::{Scene, Vessel, own_state, planner, track};
+use crate::scene::{Scene, Vessel, planner, track};
 use geom::{Vec2, units::deg};
-use planner_api::{Planner, Situation};
+use planner_api::{OwnState, Planner, Situation};
 
 /// Shows own ship at the origin, on these compass courses at 8 m/s, one target in these places.
 fn show(planner: &mut dyn Planner, beats: &[(f64, Vessel)]) -> u32 {
     planner.reset(&Scene::paper(6000.0, &[]).mission());
     for (beat, &(course_deg, vessel)) in beats.iter().enumerate() {
-        let own = own_state(Vec2::zeros(), deg(course_deg), 8.0);
+        let own = OwnState::steady(Vec2::zeros(), deg(course_deg), 8.0);
         let tracks = [track(4, vessel, 0.0)];
         let t_s = beat as f64;
         planner.plan(&Situation { t_s, own, tracks: &tracks, visual_range_m: None });

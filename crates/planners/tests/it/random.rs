@@ -40,6 +40,7 @@ pub(crate) fn encounter(stream: &mut PlannerStream) -> (Scene, EncounterClass) {
             turn_rate_deg: 6.0,
             target_length_m: Some(length_m),
             alters: None,
+            land: Vec::new(),
         };
         return (scene, class);
     }

@@ -38,6 +38,8 @@ pub(crate) struct Scene {
     pub(crate) target_length_m: Option<f64>,
     /// When every target alters (seconds), and by how much to starboard (degrees).
     pub(crate) alters: Option<(f64, f64)>,
+    /// Outlines of land, corners in metres (x east, y north).
+    pub(crate) land: Vec<Vec<(f64, f64)>>,
 }
 
 impl Scene {
@@ -54,6 +56,7 @@ impl Scene {
             turn_rate_deg: 6.0,
             target_length_m: None,
             alters: None,
+            land: Vec::new(),
         }
     }
 
@@ -73,6 +76,7 @@ impl Scene {
     }
 
     pub(crate) fn mission(&self) -> Mission {
+        let at = |&(x, y): &(f64, f64)| Vec2::new(y, x);
         Mission {
             own: OwnShip {
                 length_m: 8.0,
@@ -89,7 +93,7 @@ impl Scene {
             safety_radius_m: self.radius_m,
             between_centres: self.target_length_m.is_none(),
             beat_s: 1.0,
-            hazards: Vec::new(),
+            hazards: self.land.iter().map(|outline| outline.iter().map(at).collect()).collect(),
             stream_seed: 7,
         }
     }
@@ -111,7 +115,7 @@ impl Scene {
     /// Own ship's first order, at the start.
     pub(crate) fn first_order(&self, planner: &mut dyn Planner) -> (f64, f64) {
         planner.reset(&self.mission());
-        let own = own_state(self.own.position_m(), self.own.course_rad(), self.own.2);
+        let own = OwnState::steady(self.own.position_m(), self.own.course_rad(), self.own.2);
         let tracks = self.tracks(0.0, own.position_m);
         let situation = Situation { t_s: 0.0, own, tracks: &tracks, visual_range_m: None };
         course_speed(planner.plan(&situation), self.own.course_rad())
@@ -128,11 +132,11 @@ impl Scene {
         let mut goal_s = None;
         for beat in 0..self.duration_s {
             let t_s = beat as f64;
-            let own = own_state(position_m, psi, speed);
+            let own = OwnState::steady(position_m, psi, speed);
             let tracks = self.tracks(t_s, position_m);
             let situation = Situation { t_s, own, tracks: &tracks, visual_range_m: None };
             let (course, ordered) = course_speed(planner.plan(&situation), psi);
-            beats.push(Beat { t_s, psi_rad: psi, speed_mps: speed });
+            beats.push(Beat { t_s, position_m, psi_rad: psi, speed_mps: speed });
             for step in 0..10 {
                 let limit = deg(0.1 * self.turn_rate_deg);
                 let turn = wrap(course - psi).clamp(-limit, limit);
@@ -176,18 +180,6 @@ pub(crate) fn track(id: u32, v: Vessel, t_s: f64) -> TargetTrack {
     }
 }
 
-pub(crate) fn own_state(position_m: Vec2, psi_rad: f64, speed_mps: f64) -> OwnState {
-    OwnState {
-        position_m,
-        psi_rad,
-        velocity_mps: angle::unit(psi_rad) * speed_mps,
-        cog_rad: psi_rad,
-        sog_mps: speed_mps,
-        stw_mps: speed_mps,
-        yaw_rate_radps: 0.0,
-    }
-}
-
 pub(crate) fn course_speed(command: Command, psi_rad: f64) -> (f64, f64) {
     match command.order {
         Order::CourseSpeed { course_rad, speed_mps } => (course_rad, speed_mps),
@@ -201,6 +193,7 @@ pub(crate) fn course_speed(command: Command, psi_rad: f64) -> (f64, f64) {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beat {
     pub(crate) t_s: f64,
+    pub(crate) position_m: Vec2,
     pub(crate) psi_rad: f64,
     pub(crate) speed_mps: f64,
 }
