@@ -1,5 +1,5 @@
-//! Land on the chart: the corrected planner gives way without running aground, and lets land that is
-//! not in the way alone.
+//! Land on the chart: the corrected planner gives way without running aground, and lets land that
+//! is not in the way alone.
 
 use crate::scene::{Run, Scene, Vessel, planner};
 use geom::{Vec2, polygon, segment_min_distance};
