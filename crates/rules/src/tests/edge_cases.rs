@@ -141,6 +141,22 @@ fn hulls_that_overlap_between_samples_are_a_collision() {
     assert_eq!(verdict(&judgement, Check::Safe).t_s, Some(200.4));
 }
 
+/// The same with a ship that goes through the other's course in half a second, between two samples
+/// at which the hulls are metres apart.
+#[test]
+fn a_fast_crossing_is_a_collision_between_two_samples() {
+    let fast = Script::new(ship(3.0, 1.0), 30.0, 610.0, deg(270.0), 20.0).hold(60.0);
+    let trace = Scene::new(own(1.0).hold(60.0), fast).trace();
+    let hull_m = |k: usize| {
+        let corners = |track: &record::ShipTrack| {
+            track.ship.hull.corners_m(track.position_m(k), track.psi_rad[k])
+        };
+        crate::pair::outline_distance_m(&corners(&trace.own), &corners(&trace.targets[0]))
+    };
+    assert!((0..trace.samples()).all(|k| hull_m(k) > 5.0));
+    expect(&judge_by(rules(), &trace), Check::Safe, Fail, "FAIL-COLLISION");
+}
+
 /// Rules 13 to 15 go by the ship's head, not by her course made good.
 #[test]
 fn drift_that_parts_heading_from_course_does_not_change_the_class() {
