@@ -153,6 +153,32 @@ fn runs_that_the_wall_clock_ended_are_counted_for_the_planner_that_was_ended() {
     assert_eq!(gate::run::Clocked::default().sentence(), None);
 }
 
+/// The two gates differ in their world alone, and that of the second is the open sea's.
+#[test]
+fn the_gate_on_the_open_sea_is_the_gate_in_another_world() {
+    const OPEN_SEA: &str = include_str!("../../../campaigns/open-sea.toml");
+    const GATE_OPEN_SEA: &str = include_str!("../../../campaigns/gate-open-sea.toml");
+    GateSpec::parse(GATE_OPEN_SEA, "gate-open-sea").expect("it is valid");
+    let table = |text: &str| text.parse::<toml::Table>().unwrap();
+    let (mut there, mut gate, open_sea) = (table(GATE_OPEN_SEA), table(GATE), table(OPEN_SEA));
+    for world in ["sensing", "weather"] {
+        let taken = |file: &mut toml::Table| file["model"].as_table_mut().unwrap().remove(world);
+        assert_eq!(taken(&mut there).as_ref(), open_sea["model"].get(world), "{world}");
+        taken(&mut gate);
+    }
+    for key in ["intent", "intent_mix", "conduct"] {
+        let target = |file: &mut toml::Table| {
+            file["model"].as_table_mut().unwrap()["target"].as_table_mut().unwrap().remove(key)
+        };
+        assert_eq!(target(&mut there).as_ref(), open_sea["model"]["target"].get(key), "{key}");
+        target(&mut gate);
+    }
+    for own in ["name", "title"] {
+        assert_ne!(there.remove(own), gate.remove(own), "{own}");
+    }
+    assert_eq!(there, gate);
+}
+
 /// The gate of the repository is feasible, and a cap that can never show a margin is refused with
 /// the cap that it needs.
 #[test]
