@@ -6,7 +6,7 @@ use std::process::Stdio;
 use std::time::Duration;
 
 const CAMPAIGN: &str =
-    "campaign laboratory --encounters 1100 --threads 2 --quiet --planner hold-course";
+    "campaign laboratory --encounters 510 --threads 2 --quiet --planner hold-course";
 
 /// Waits until at least `parts` parts are there.
 fn wait_for_parts(result: &Path, parts: usize) {
@@ -71,18 +71,14 @@ fn an_interrupt_leaves_a_resumable_state_and_says_how() {
 #[test]
 fn a_damaged_part_is_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
-    let shard = "campaign laboratory --encounters 600 --shard 1/2 --out parts --quiet";
-    run_ok(folder.path(), shard);
+    let campaign = "campaign laboratory --encounters 20 --planner hold-course --out parts --quiet";
+    run_ok(folder.path(), &format!("{campaign} --shard 1/9"));
     let parts = folder.path().join("parts/state/parts");
     let first = std::fs::read_dir(&parts).unwrap().flatten().map(|e| e.path()).min().unwrap();
     let mut bytes = std::fs::read(&first).unwrap();
     let last = bytes.len() - 1;
     bytes[last] ^= 1;
     std::fs::write(&first, bytes).unwrap();
-    let said = run_err(
-        folder.path(),
-        "campaign laboratory --encounters 600 --out parts --quiet --resume",
-        2,
-    );
+    let said = run_err(folder.path(), &format!("{campaign} --resume"), 2);
     assert!(said.contains(first.file_name().unwrap().to_str().unwrap()), "{said}");
 }

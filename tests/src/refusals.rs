@@ -1,6 +1,6 @@
 //! Bad input of every kind ends in one clear message, exit 2, and no half-written output.
 
-use crate::support::{run_err, run_ok};
+use crate::support::{run_err, run_ok, seatrial};
 use std::fs;
 use std::path::Path;
 
@@ -77,6 +77,8 @@ fn wrong_command_lines_are_refused() {
         ("campaign --shard 4/3", "4/3"),
         ("campaign --threads 0", "threads"),
         ("campaign --fast", "--fast"),
+        ("campaign quick --situations nowhere.json", "no [situations] table"),
+        ("campaign --situations nowhere.json", "nowhere.json"),
         ("replay nowhere head_on/000000", "nowhere"),
         ("frobnicate", "frobnicate"),
     ] {
@@ -84,6 +86,17 @@ fn wrong_command_lines_are_refused() {
         assert!(said.contains(word), "`{line}`: the message does not say {word}: {said}");
         assert!(!folder.path().join("reports").exists(), "`{line}` left output behind");
     }
+}
+
+/// A redirection to a full disk: told once, however many lines are cut, and not called done.
+#[test]
+fn output_that_cannot_be_printed_is_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = seatrial(folder.path()).arg("planners").stdout(full).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert_eq!(said.matches("standard output was cut").count(), 1, "{said}");
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! `--resume`. Finished: it holds `manifest.json`. Anything else is not ours and is left alone.
 
 use crate::part::PartKey;
+use crate::parts_list::PARTS_LIST;
 use crate::{Error, Plan, part};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -12,11 +13,15 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// The table of a result; without it the rows lie in the parts of [`PARTS_LIST`].
+pub const TABLE: &str = "runs.parquet";
+
 /// Everything a finished folder may hold, and so everything that `--force` may remove.
-const OURS: [&str; 8] = [
+const OURS: [&str; 9] = [
     "state",
     "report.html",
-    "runs.parquet",
+    TABLE,
+    PARTS_LIST,
     "summary.json",
     "figures",
     "manifest.json",

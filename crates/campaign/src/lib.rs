@@ -13,6 +13,7 @@ pub mod inflight;
 pub mod judges;
 pub mod last_minute;
 pub mod part;
+pub mod parts_list;
 pub mod pipeline;
 pub mod plan;
 pub mod rejudge;
@@ -24,6 +25,6 @@ pub mod worker;
 
 pub use error::Error;
 pub use folder::Folder;
-pub use pipeline::{Finished, RowSink, finish, run_parts};
+pub use pipeline::{Finished, PartRead, RowSink, finish, run_parts};
 pub use plan::{Plan, Source};
 pub use spec::{CampaignFile, Overrides};

@@ -37,6 +37,11 @@ impl PartKey {
         format!("{:04}-{:08}.part", self.stratum, self.piece)
     }
 
+    /// The part of encounter `j` of a stratum.
+    pub const fn of_encounter(stratum: u32, j: u64) -> Self {
+        Self { stratum, piece: j / PART_ENCOUNTERS }
+    }
+
     /// The part with this name of a file.
     pub fn of_file_name(name: &str) -> Option<Self> {
         let (stratum, piece) = name.strip_suffix(".part")?.split_once('-')?;
@@ -109,8 +114,9 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
-/// Reads a part and refuses one that is not whole or belongs to another plan.
-pub fn read(folder: &Path, plan_hash: &str, key: PartKey) -> Result<Part, Error> {
+/// Reads a part and refuses one that is not whole or belongs to another plan. With it comes the
+/// BLAKE3 of the file, hexadecimal.
+pub fn read(folder: &Path, plan_hash: &str, key: PartKey) -> Result<(Part, String), Error> {
     let path = folder.join(key.file_name());
     let bytes = fs::read(&path).map_err(Error::io("read", &path))?;
     let damaged = |what: &str| {
@@ -133,5 +139,5 @@ pub fn read(folder: &Path, plan_hash: &str, key: PartKey) -> Result<Part, Error>
     if part.rows.len() as u64 != header.rows {
         return Err(damaged("holds another number of rows than it says"));
     }
-    Ok(part)
+    Ok((part, blake3::hash(&bytes).to_hex().to_string()))
 }

@@ -14,12 +14,26 @@ use crate::part::{self, PartKey};
 use crate::supervisor::Supervisor;
 use crate::{Error, Folder, Plan};
 use record::{RootDigest, RunRow};
+use std::path::PathBuf;
 use summary::{Findings, Tallies};
 
-/// Where rows go, in order (stratum, j).
+/// A part that was read: where it lies, and its rows.
+#[derive(Debug)]
+pub struct PartRead {
+    /// Which part.
+    pub key: PartKey,
+    /// The folder of its file.
+    pub folder: PathBuf,
+    /// BLAKE3 of its file, hexadecimal.
+    pub blake3: String,
+    /// Its rows, in the order of j.
+    pub rows: Vec<RunRow>,
+}
+
+/// Where the rows of parts go, in order (stratum, j).
 pub trait RowSink {
-    /// The next rows.
-    fn push(&mut self, rows: Vec<RunRow>) -> Result<(), Error>;
+    /// The next part.
+    fn push(&mut self, part: PartRead) -> Result<(), Error>;
 }
 
 /// What all parts of a result add up to.
@@ -67,7 +81,8 @@ pub fn finish(plan: &Plan, folder: &Folder, sink: &mut dyn RowSink) -> Result<Fi
     let mut disagreements = Vec::new();
     let mut encounters = 0;
     for key in shard_keys(plan, (1, 1)) {
-        let part = part::read(&folder.parts_of(key), folder.plan_hash(), key)?;
+        let place = folder.parts_of(key);
+        let (part, blake3) = part::read(&place, folder.plan_hash(), key)?;
         for row in &part.rows {
             root.push(row.digest);
             cases.offer(row);
@@ -76,7 +91,7 @@ pub fn finish(plan: &Plan, folder: &Folder, sink: &mut dyn RowSink) -> Result<Fi
         }
         tallies.stratum_mut(&plan.strata[key.stratum as usize]).merge(&part.tally);
         encounters += part.rows.len() as u64;
-        sink.push(part.rows)?;
+        sink.push(PartRead { key, folder: place, blake3, rows: part.rows })?;
     }
     let root_digest = root.hex();
     Ok(Finished { tallies, root_digest, encounters, cases, findings, disagreements })

@@ -160,6 +160,10 @@ pub(crate) enum Command {
         dir: PathBuf,
         /// Further folders, one shard each
         shards: Vec<PathBuf>,
+        /// Leave the rows in the parts of the shards, and list these with their hashes, instead of
+        /// making one table; a later `merge` without it makes the table
+        #[arg(long)]
+        table_in_parts: bool,
         /// No table
         #[arg(long)]
         quiet: bool,
@@ -252,6 +256,9 @@ pub(crate) struct SlurmArgs {
     /// Longest time of a task, in Slurm's form
     #[arg(long, value_name = "TIME", default_value = "04:00:00")]
     pub(crate) time: String,
+    /// Merge with --table-in-parts
+    #[arg(long)]
+    pub(crate) table_in_parts: bool,
     /// How often a task is tried, and how often it may be requeued
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(crate) attempts: u64,
@@ -284,16 +291,17 @@ pub(crate) struct CompareArgs {
 
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct CampaignArgs {
-    /// A campaign file, or the name of one that is built in
-    #[arg(value_name = "FILE|NAME", default_value = "quick")]
-    pub(crate) campaign: String,
+    /// A campaign file, or the name of one that is built in [default: quick, and with --situations
+    /// situations]
+    #[arg(value_name = "FILE|NAME")]
+    pub(crate) campaign: Option<String>,
     /// A planner of the registry, instead of the campaign's; may be given several times
     #[arg(long = "planner", value_name = "NAME")]
     pub(crate) planners: Vec<String>,
     /// Rule set, instead of the campaign's
     #[arg(long, value_name = "NAME")]
     pub(crate) rules: Option<String>,
-    /// DNV traffic situations (JSON): a file or a folder [with the campaign `situations`]
+    /// DNV traffic situations (JSON): a file or a folder
     #[arg(long, value_name = "PATH")]
     pub(crate) situations: Option<PathBuf>,
     /// Encounters of each stratum, instead of the campaign's

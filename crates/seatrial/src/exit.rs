@@ -28,6 +28,7 @@ pub(crate) enum Ended {
 /// The exit code of a command; an error is printed.
 pub(crate) fn code(ended: Result<Ended, Error>) -> ExitCode {
     ExitCode::from(match ended {
+        Ok(Ended::Done) if crate::say::was_cut() => INCOMPLETE,
         Ok(Ended::Done) => DONE,
         Ok(Ended::Failed) => FAILED,
         Ok(Ended::Inconclusive) => INCOMPLETE,

@@ -24,6 +24,7 @@ mod obstacles;
 mod progress;
 mod rendering;
 mod say;
+mod stored;
 mod sweep;
 mod timing;
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 #[derive(Serialize)]
@@ -43,17 +44,32 @@ pub(crate) fn write(folder: &Path, plan: &Plan, finished: &Finished) -> Result<(
 fn hashes(folder: &Path) -> Result<BTreeMap<String, String>, Error> {
     const LEFT_OUT: [&str; 4] = ["manifest.json", "timing.json", "state", "replay"];
     let mut found = BTreeMap::new();
-    for path in crate::files::below(folder)? {
-        let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
-        let left_out =
-            LEFT_OUT.iter().any(|out| name == *out || name.starts_with(&format!("{out}/")))
-                || [JUDGED, SHARD].iter().any(|prefix| name.starts_with(prefix));
-        if left_out {
+    for entry in fs::read_dir(folder).map_err(Error::io("read", folder))? {
+        let path = entry.map_err(Error::io("read", folder))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if LEFT_OUT.contains(&name.as_str())
+            || [JUDGED, SHARD].iter().any(|prefix| name.starts_with(prefix))
+        {
             continue;
         }
-        let bytes = fs::read(&path).map_err(Error::io("read", &path))?;
-        let hex = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-        found.insert(name, hex);
+        let files = if path.is_dir() { crate::files::below(&path)? } else { vec![path] };
+        for path in files {
+            let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
+            found.insert(name, sha256_hex(&path)?);
+        }
     }
     Ok(found)
+}
+
+/// A table may be larger than the memory: it is read piece by piece.
+fn sha256_hex(path: &Path) -> Result<String, Error> {
+    let mut file = fs::File::open(path).map_err(Error::io("read", path))?;
+    let (mut hasher, mut piece) = (Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut piece).map_err(Error::io("read", path))? {
+            0 => break,
+            count => hasher.update(&piece[..count]),
+        }
+    }
+    Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }

@@ -42,10 +42,8 @@ pub(super) fn run(args: &CampaignArgs, registry: Registry) -> Result<Ended, Erro
 /// One plan for each planner that was asked for.
 fn plans(args: &CampaignArgs, registry: Registry) -> Result<(Vec<Plan>, Registry), Error> {
     // --situations alone means the built-in campaign that takes situations over
-    let name = match (&args.situations, args.campaign.as_str()) {
-        (Some(_), "quick") => "situations",
-        (_, name) => name,
-    };
+    let default = if args.situations.is_some() { "situations" } else { "quick" };
+    let name = args.campaign.as_deref().unwrap_or(default);
     let file = CampaignFile::parse(&embedded::campaign_text(name)?, name)?;
     let named = if args.planners.is_empty() { &file.planners } else { &args.planners };
     let registry = super::with_outside(registry, named)?;
@@ -143,7 +141,8 @@ impl Job<'_> {
             }
             return Ok(None);
         }
-        let how = finish::How { threads: self.threads, quiet, beside: self.several };
+        let how =
+            finish::How { threads: self.threads, in_parts: false, quiet, beside: self.several };
         finish::finish(plan, self.registry, &folder, &mut stopwatch, how).map(Some).map_err(go_on)
     }
 

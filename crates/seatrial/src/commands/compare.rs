@@ -12,7 +12,7 @@ pub(super) fn run(
     registry: Registry,
 ) -> Result<Ended, Error> {
     let args = CampaignArgs {
-        campaign: common.campaign,
+        campaign: Some(common.campaign),
         planners,
         encounters: common.encounters,
         seed: common.seed,

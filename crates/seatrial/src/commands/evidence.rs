@@ -35,11 +35,12 @@ pub(super) fn run(wanted: &Wanted<'_>, registry: Registry) -> Result<Ended, Erro
         )));
     }
     let (folder, plan) = Folder::existing(wanted.dir)?;
+    let table = crate::stored::whole_table(folder.path())?;
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
     unchanged(folder.path())?;
     let given =
         super::evidence_given::gather(folder.path(), &plan, wanted.self_test, wanted.previous)?;
-    let pack = make(&plan, &registry, &folder.path().join("runs.parquet"), &given)?;
+    let pack = make(&plan, &registry, &table, &given)?;
     same_report(folder.path(), &pack)?;
     for (path, bytes) in &pack {
         let path = out.join(path);

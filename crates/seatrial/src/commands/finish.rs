@@ -5,11 +5,14 @@ use crate::rendering::{Rendering, card};
 use crate::say::{say, say_text};
 use crate::timing::Stopwatch;
 use crate::{files, headline, manifest};
-use campaign::{Error, Folder, Plan, RowSink};
+use campaign::folder::TABLE;
+use campaign::parts_list::{PARTS_LIST, PartsList};
+use campaign::{Error, Folder, PartRead, Plan, RowSink};
 use planner_api::Registry;
-use record::{Outcome, RunRow};
+use record::Outcome;
 use report::{Card, Compared};
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 use summary::{Summary, Tallies};
 
@@ -33,11 +36,44 @@ impl PlannerResult {
     }
 }
 
-struct TableSink(table::ParquetSink);
+/// Where the rows of a result go.
+enum Rows {
+    Table(Box<table::ParquetSink>),
+    /// They stay in the parts, which are listed.
+    Parts(PartsList),
+}
 
-impl RowSink for TableSink {
-    fn push(&mut self, rows: Vec<RunRow>) -> Result<(), Error> {
-        rows.iter().try_for_each(|row| self.0.push(row)).map_err(Error::stage)
+impl Rows {
+    /// Either takes the place of the other, which is of an earlier merge.
+    fn create(dir: &Path, in_parts: bool) -> Result<Self, Error> {
+        let other = dir.join(if in_parts { TABLE } else { PARTS_LIST });
+        match fs::remove_file(&other) {
+            Err(e) if e.kind() == ErrorKind::NotFound => {}
+            removed => removed.map_err(Error::io("remove", &other))?,
+        }
+        if in_parts {
+            return PartsList::create(dir).map(Self::Parts);
+        }
+        let table = table::ParquetSink::create(dir.join(TABLE)).map_err(Error::stage)?;
+        Ok(Self::Table(Box::new(table)))
+    }
+
+    fn finish(self) -> Result<(), Error> {
+        match self {
+            Self::Table(table) => table.finish().map(drop).map_err(Error::stage),
+            Self::Parts(list) => list.finish(),
+        }
+    }
+}
+
+impl RowSink for Rows {
+    fn push(&mut self, part: PartRead) -> Result<(), Error> {
+        match self {
+            Self::Table(table) => {
+                part.rows.iter().try_for_each(|row| table.push(row)).map_err(Error::stage)
+            }
+            Self::Parts(list) => list.push(part),
+        }
     }
 }
 
@@ -45,6 +81,8 @@ impl RowSink for TableSink {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct How {
     pub(super) threads: usize,
+    /// Leave the rows in the parts instead of making a table of them.
+    pub(super) in_parts: bool,
     /// Print nothing.
     pub(super) quiet: bool,
     /// It is one of several that are compared in the folder above.
@@ -60,10 +98,9 @@ pub(super) fn finish(
     how: How,
 ) -> Result<PlannerResult, Error> {
     let dir = folder.path();
-    let sink = table::ParquetSink::create(dir.join("runs.parquet"));
-    let mut sink = TableSink(sink.map_err(Error::stage)?);
-    let finished = campaign::finish(plan, folder, &mut sink)?;
-    sink.0.finish().map_err(Error::stage)?;
+    let mut rows = Rows::create(dir, how.in_parts)?;
+    let finished = campaign::finish(plan, folder, &mut rows)?;
+    rows.finish()?;
     stopwatch.lap("table");
     let mut rendering = Rendering::new(
         plan,
@@ -110,9 +147,8 @@ pub(super) fn read_back(plan: &Plan, folder: &Folder) -> Result<PlannerResult, E
     let summary = serde_json::from_str(&text)
         .map_err(|e| Error::input(format!("{} is damaged: {e}", path.display())))?;
     let mut tallies = Tallies::new();
-    let damaged = |e: table::TableError| Error::input(format!("failed to {e}"));
-    for row in table::read_rows(dir.join("runs.parquet")).map_err(damaged)? {
-        tallies.add(&row.map_err(damaged)?);
+    for row in crate::stored::rows(dir, plan)? {
+        tallies.add(&row?);
     }
     Ok(PlannerResult { card: card(plan)?, summary, tallies, link: link(dir) })
 }

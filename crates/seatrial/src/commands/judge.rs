@@ -9,6 +9,7 @@ use crate::exit::Ended;
 use crate::files;
 use crate::say::{say, say_text};
 use crate::sweep::{Sweep, Values};
+use campaign::folder::TABLE;
 use campaign::plan::RulesChoice;
 use campaign::rejudge::{Rejudge, Stored};
 use campaign::{Error, Folder, Plan};
@@ -66,7 +67,7 @@ impl Job<'_> {
     fn again(&self, rules: &RulesChoice) -> Result<Ended, Error> {
         let out = self.out(&rules.rule_set()?)?;
         let failed = |e: table::TableError| Error::stage(e);
-        let mut table = table::ParquetSink::create(out.join("runs.parquet")).map_err(failed)?;
+        let mut table = table::ParquetSink::create(out.join(TABLE)).map_err(failed)?;
         let summary = self.run(rules, vec![rules.rule_set()?], &mut |rows| {
             rows.iter().try_for_each(|row| table.push(row)).map_err(failed)
         })?;
@@ -78,7 +79,7 @@ impl Job<'_> {
             say!("rules {} ({}) over {}", rules.name, &rules.hash[..12], self.shown());
             say_text!("{}", crate::headline::table(summary, crate::headline::terminal_columns()));
             say!("every run gave its stored digest; root digest {}", summary.root_digest);
-            say!("table: {}", out.join("runs.parquet").display());
+            say!("table: {}", out.join(TABLE).display());
         }
         Ok(Ended::Done)
     }
@@ -115,16 +116,13 @@ impl Job<'_> {
         sets: Vec<RuleSet>,
         sink: &mut dyn FnMut(Vec<RunRow>) -> Result<(), Error>,
     ) -> Result<Vec<JudgedAgain>, Error> {
-        let path = self.folder.path().join("runs.parquet");
-        let damaged = |e: table::TableError| Error::input(format!("failed to {e}"));
-        let rows = table::read_rows(&path).map_err(damaged)?;
-        let total = rows.total();
-        let mut stored = rows.map(|row| row.map(Stored::from).map_err(damaged));
+        let rows = crate::stored::rows(self.folder.path(), self.plan)?;
+        let mut stored = rows.map(|row| row.map(Stored::from));
         let texts: Vec<RuleSet> = sets.clone();
         let mut tallies = vec![Tallies::new(); sets.len()];
         let mut disagreeing = vec![Vec::new(); sets.len()];
         let mut root = RootDigest::new();
-        let progress = crate::progress::Progress::new("judge", total, self.quiet);
+        let progress = crate::progress::Progress::new("judge", self.plan.encounters(), self.quiet);
         let plan = Plan { rules: first.clone(), ..self.plan.clone() };
         let job =
             Rejudge { plan: &plan, registry: self.registry, rules: sets, threads: self.threads };

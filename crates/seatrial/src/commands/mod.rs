@@ -70,7 +70,10 @@ pub(crate) fn run(command: Command, registry: Registry) -> Result<Ended, Error> 
         }
         Command::Judge(args) => judge::run(&args, registry),
         Command::Missing { dir, shards, of } => shards::missing(&dir, &shards, of),
-        Command::Merge { dir, shards, quiet } => shards::merge(&dir, &shards, registry, quiet),
+        Command::Merge { dir, shards, table_in_parts, quiet } => {
+            let wanted = shards::Merge { dir: &dir, further: &shards, table_in_parts, quiet };
+            shards::merge(&wanted, registry)
+        }
         Command::Slurm(args) => slurm::run(&args),
         Command::Gate(args) => gate::run(&args, registry),
         Command::Baseline(args) => baseline::run(&args, registry),

@@ -14,10 +14,7 @@ pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<
     let (folder, plan) = Folder::existing(dir)?;
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
     campaign::engine::quiet_planner_panics();
-    let table = folder.path().join("runs.parquet");
-    let stored = table::find(&table, &id)
-        .map_err(|e| Error::input(format!("failed to {e}")))?
-        .ok_or_else(|| Error::input(format!("{} has no row {id}", table.display())))?;
+    let stored = crate::stored::find(folder.path(), &plan, &id)?;
     if matches!(stored.outcome, record::Outcome::PlannerHung | record::Outcome::PlannerCrashed) {
         say!(
             "{id}: {}; the planner takes its process with it, so it is not run here again",

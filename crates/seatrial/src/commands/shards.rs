@@ -3,11 +3,14 @@
 use super::finish;
 use crate::exit::Ended;
 use crate::say::say;
+use crate::stored;
 use crate::timing::Stopwatch;
 use campaign::part::PartKey;
+use campaign::parts_list;
 use campaign::shards::Shards;
 use campaign::{Error, Folder, Plan};
 use planner_api::Registry;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Lists the parts that are not there; with `of`, the shards that have to be run again.
@@ -31,14 +34,23 @@ pub(super) fn missing(dir: &Path, further: &[PathBuf], of: Option<u64>) -> Resul
     Err(Error::Incomplete(format!("{count} of {} parts are missing", count + there)))
 }
 
+/// What is to be merged, and how.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Merge<'a> {
+    pub(super) dir: &'a Path,
+    /// Further folders of shards.
+    pub(super) further: &'a [PathBuf],
+    /// Leave the rows in the parts.
+    pub(super) table_in_parts: bool,
+    pub(super) quiet: bool,
+}
+
 /// Puts the parts of all shards together, as one machine would have.
-pub(super) fn merge(
-    dir: &Path,
-    further: &[PathBuf],
-    registry: Registry,
-    quiet: bool,
-) -> Result<Ended, Error> {
-    if dir.join("manifest.json").exists() {
+pub(super) fn merge(wanted: &Merge<'_>, registry: Registry) -> Result<Ended, Error> {
+    let Merge { dir, further, table_in_parts, quiet } = *wanted;
+    let manifest = dir.join("manifest.json");
+    let makes_table = stored::in_parts(dir) && !table_in_parts;
+    if manifest.exists() && !makes_table {
         return Err(Error::input(format!("{} is finished already", dir.display())));
     }
     let shards = Shards::find(dir, further)?;
@@ -52,12 +64,19 @@ pub(super) fn merge(
             dir.display()
         )));
     }
+    if table_in_parts {
+        parts_list::refuse_elsewhere(dir, &shards.parts)?;
+    }
     let Shards { plan, parts } = shards;
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
     campaign::engine::quiet_planner_panics();
     let mut stopwatch = Stopwatch::start();
     let folder = Folder::merged(dir, &plan, parts)?;
-    let how = finish::How { threads: 1, quiet, beside: false };
+    if manifest.exists() {
+        // the result of before is no longer whole once its list of parts is gone
+        fs::remove_file(&manifest).map_err(Error::io("remove", &manifest))?;
+    }
+    let how = finish::How { threads: 1, in_parts: table_in_parts, quiet, beside: false };
     finish::finish(&plan, &registry, &folder, &mut stopwatch, how)
         .map_err(|e| e.kept_in(dir, "merge again"))?;
     Ok(Ended::Done)

@@ -56,7 +56,10 @@ pub(super) fn run(args: &SlurmArgs) -> Result<Ended, Error> {
     }
     let job = Job { args, name: &file.name, out: &out.to_string_lossy(), command: &command };
     fs::create_dir_all(out.join("shard-logs")).map_err(Error::io("make", &out))?;
-    let merge = format!("{} merge {}", quoted(&program.to_string_lossy()), quoted(job.out));
+    let mut merge = format!("{} merge {}", quoted(&program.to_string_lossy()), quoted(job.out));
+    if args.table_in_parts {
+        merge += " --table-in-parts";
+    }
     for (name, text) in [
         ("shard-array.sbatch", job.array()),
         ("shard-merge.sbatch", job.merge(&merge)),
