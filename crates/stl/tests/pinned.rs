@@ -5,6 +5,8 @@
 //! is looked at line by line and then taken over: on a difference the test prints where the new text
 //! lies.
 
+#![expect(clippy::unwrap_used, reason = "a test: a panic is its failure")]
+
 mod common;
 
 use common::{Script, USV, deg, run};
