@@ -1,9 +1,9 @@
 //! Some hundred voyages with every finding and robustness of the second judge, written down in
 //! `pinned.txt`.
 //!
-//! The other tests say what is right; this says that nothing else has moved. A change that is meant
-//! is looked at line by line and then taken over: on a difference the test prints where the new text
-//! lies.
+//! The other tests say what is right; this says that nothing else has moved. A change that is
+//! meant is looked at line by line and then taken over: on a difference the test prints where the
+//! new text lies.
 
 #![expect(clippy::unwrap_used, reason = "a test: a panic is its failure")]
 
