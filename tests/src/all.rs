@@ -20,3 +20,4 @@ mod same_bits;
 mod shards;
 mod starred_findings;
 mod support;
+mod weighted;

@@ -51,19 +51,6 @@ fn wrong_campaign_files_are_refused_with_place_and_reason() {
     }
 }
 
-/// A summary counts encounters: of a weighted draw it would print rates of no traffic.
-#[test]
-fn weights_that_no_summary_carries_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let rate = "[model.encounter_rate]\nclosing_mps_min = 1.5\n\
-                miss_m_drawn = [{ up_to_m = 150.0, share = 1.0 }]\n";
-    fs::write(folder.path().join("weighted.toml"), format!("{QUICK}\n{rate}")).unwrap();
-    let line = "campaign weighted.toml --encounters 1 --out out --quiet";
-    let said = run_err(folder.path(), line, 2);
-    assert!(said.contains("model.encounter_rate") && said.contains("weights"), "{said}");
-    assert!(!folder.path().join("out").exists());
-}
-
 #[test]
 fn wrong_command_lines_are_refused() {
     let folder = tempfile::tempdir().unwrap();

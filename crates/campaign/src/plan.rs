@@ -169,7 +169,6 @@ impl Source {
         }
         match (&file.model, &file.set) {
             (Some(model), _) => {
-                refuse_weights(file, model)?;
                 Generator::new(model, &settings).map_err(wrong)?;
                 Ok(Self::Model(Box::new(model.clone())))
             }
@@ -179,19 +178,6 @@ impl Source {
             (None, None) => Err(Error::input(format!("campaign {} has no source", file.name))),
         }
     }
-}
-
-/// A summary counts every encounter once, with bounds that hold for counts: of a weighted draw they
-/// would be rates of no traffic.
-fn refuse_weights(file: &CampaignFile, model: &Model) -> Result<(), Error> {
-    if model.encounter_rate.is_none() {
-        return Ok(());
-    }
-    Err(Error::input(format!(
-        "campaign {}: model.encounter_rate draws encounters with weights, which the summary and \
-         its bounds do not carry yet; take the table out: each encounter then counts once",
-        file.name
-    )))
 }
 
 /// A campaign resolved for one planner.
@@ -290,6 +276,59 @@ impl Plan {
         self.strata.len() as u64 * self.encounters_per_stratum
     }
 
+    /// Whether encounters are drawn with weights: then counts of them are no rates.
+    pub fn is_weighted(&self) -> bool {
+        matches!(&self.source, Source::Model(model) if model.encounter_rate.is_some())
+    }
+
+    /// Refuses a use that counts every encounter once.
+    ///
+    /// # Errors
+    /// Encounters are drawn with weights; `what` would count each of them once.
+    pub fn refuse_weights(&self, what: &str) -> Result<(), Error> {
+        if !self.is_weighted() {
+            return Ok(());
+        }
+        Err(Error::input(format!(
+            "campaign {}: model.encounter_rate draws encounters with weights, and {what} would \
+             count each of them once; take the table out, or read the weighted rates in \
+             summary.json",
+            self.campaign
+        )))
+    }
+
+    /// What the campaign allows but shows less than it seems to; sentences.
+    pub fn warnings(&self) -> Vec<String> {
+        match &self.source {
+            Source::Model(model) => model.warnings(&self.settings()),
+            Source::Fixed(_) => Vec::new(),
+        }
+    }
+
+    fn settings(&self) -> encounter::RunSettings {
+        encounter::RunSettings {
+            limits: self.run.limits(),
+            safety_radius_m: self.run.safety_radius_m,
+            distance: self.run.distance,
+        }
+    }
+
+    /// The largest weight that an encounter of each stratum can have, by its name; empty where
+    /// every encounter counts once.
+    ///
+    /// # Errors
+    /// The model is not one.
+    pub fn weight_max(&self) -> Result<BTreeMap<String, f64>, Error> {
+        let EncounterSource::Random(generator, _) = self.encounters_source()? else {
+            return Ok(BTreeMap::new());
+        };
+        if !self.is_weighted() {
+            return Ok(BTreeMap::new());
+        }
+        let largest = |(i, name): (usize, &String)| (name.clone(), generator.weight_max(i));
+        Ok(self.strata.iter().enumerate().map(largest).collect())
+    }
+
     /// The id of encounter `j` of a stratum.
     pub fn id(&self, stratum: u32, j: u64) -> EncounterId {
         EncounterId::new(self.strata[stratum as usize].as_str(), j)
@@ -303,11 +342,7 @@ impl Plan {
 
     /// A way to draw this plan's encounters.
     pub fn encounters_source(&self) -> Result<EncounterSource, Error> {
-        let settings = encounter::RunSettings {
-            limits: self.run.limits(),
-            safety_radius_m: self.run.safety_radius_m,
-            distance: self.run.distance,
-        };
+        let settings = self.settings();
         Ok(match &self.source {
             Source::Model(model) => EncounterSource::Random(
                 Box::new(

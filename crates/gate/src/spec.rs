@@ -146,7 +146,10 @@ impl GateSpec {
             seed: Some(seed),
         };
         let plans = file.resolve(&overrides, None, registry, find_rules, build)?;
-        plans.into_iter().next().ok_or_else(|| Error::Fault("a planner without a plan".into()))
+        let plan = plans.into_iter().next();
+        let plan = plan.ok_or_else(|| Error::Fault("a planner without a plan".into()))?;
+        plan.refuse_weights("the gate's rule")?;
+        Ok(plan)
     }
 
     /// What the rule declares: `strata` in the order in which the ids cycle through them, the

@@ -3,20 +3,21 @@
 use crate::figure::Figure;
 use crate::input::{Compared, Cost, Extra};
 use crate::number::{NONE, count, fixed, per_cent_or_none, significant};
-use crate::page::{bounds, check_rate, css, fill, inline};
+use crate::page::{bounds, css, fill, inline};
+use crate::weighted::{self, check_rate};
 use crate::write::Rendered;
 use crate::{ReportError, figure_rates};
 use geom::EncounterClass;
 use record::{Check, Status};
 use serde::Serialize;
 use std::path::Path;
-use summary::{BoundedRate, PairedRates, StratumSummary};
+use summary::{BoundedRate, PairedRates, StratumSummary, Tally};
 
 /// `comparison.html` and its figures.
 pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError> {
     let wholes: Vec<StratumSummary> = columns
         .iter()
-        .map(|column| StratumSummary::new(&column.summary.planner, &column.tallies.total()))
+        .map(|column| summary_of(column, &column.tallies.total(), |_| true))
         .collect();
     let mut figures = vec![Figure {
         stem: "comparison".to_owned(),
@@ -29,7 +30,7 @@ pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError>
             .iter()
             .filter_map(|column| {
                 let tally = column.tallies.stratum(&name)?;
-                Some(StratumSummary::new(&column.summary.planner, tally))
+                Some(summary_of(column, tally, |stratum| stratum == name))
             })
             .collect();
         let extra = |cost: &Cost| cost.strata.iter().find(|(n, _)| *n == name).map(|(_, e)| *e);
@@ -64,6 +65,17 @@ pub(crate) fn render(columns: &[Compared]) -> Result<Vec<Rendered>, ReportError>
         figure.svg.map(|text| Rendered { path, text })
     }));
     Ok(files)
+}
+
+/// A column's runs, those of the strata that `of` takes, with the rates that a page shows.
+fn summary_of(column: &Compared, tally: &Tally, of: impl Fn(&str) -> bool) -> StratumSummary {
+    let summary = StratumSummary::new(&column.summary.planner, tally);
+    let strata = column.summary.strata.iter().filter(|stratum| of(&stratum.name));
+    let largest = strata.filter_map(|s| Some(s.weighted.as_ref()?.weight_max)).reduce(f64::max);
+    match largest {
+        Some(weight_max) => weighted::shown(summary.with_weights(tally, weight_max)),
+        None => summary,
+    }
 }
 
 #[derive(Serialize)]
@@ -186,11 +198,7 @@ fn lines(wholes: &[StratumSummary]) -> Vec<Line> {
         }),
     ];
     for check in Check::ALL {
-        let of = |s: &StratumSummary| {
-            check_rate(|status: Status| {
-                s.checks.get(&check).and_then(|all| all.get(&status)).copied().unwrap_or(0)
-            })
-        };
+        let of = |s: &StratumSummary| check_rate(s, check);
         if wholes.iter().any(|s| of(s).n > 0) {
             lines.push(rate(&format!("failed: {}", check.title()), &of));
         }
@@ -247,6 +255,6 @@ fn ratio_cell(pairs: &PairedRates) -> Cell {
     let bounds = || format!("{} to {}", ratio(pairs.lower_95), ratio(pairs.upper_95));
     Cell {
         value: ratio(pairs.risk_ratio),
-        small: pairs.risk_ratio.map_or_else(String::new, |_| bounds()),
+        small: pairs.lower_95.map_or_else(String::new, |_| bounds()),
     }
 }

@@ -3,7 +3,8 @@
 use crate::axis::Panel;
 use crate::canvas::{Area, At, Ink, Pen, Sheet, Type, sheet};
 use crate::figure::{DataTable, Figure};
-use crate::number::{count, fixed, per_cent, per_cent_or_none, short_count};
+use crate::number::{NONE, count, fixed, per_cent, per_cent_or_none, short_count};
+use crate::weighted::of_draws;
 use std::collections::BTreeMap;
 use summary::{BEARING_SECTORS, BoundedRate, Cell, CellKey, Tally};
 
@@ -12,8 +13,8 @@ const LEFT: f64 = 62.0;
 const TOP: f64 = 64.0;
 const ROW: f64 = 30.0;
 
-/// The map of all runs.
-pub(crate) fn figure(tally: &Tally) -> Figure {
+/// The map of all runs; of weighted ones without bounds.
+pub(crate) fn figure(tally: &Tally, weighted: bool) -> Figure {
     let cells = tally.map.cells();
     let n: u64 = cells.values().map(|cell| cell.n).sum();
     let mut table = DataTable::new(&[
@@ -29,6 +30,7 @@ pub(crate) fn figure(tally: &Tally) -> Figure {
     for (key, cell) in &cells {
         let (lower, upper) = key.ratio();
         let rate = BoundedRate::new(cell.failures, 0, cell.n);
+        let part = |bound| if weighted { NONE.to_owned() } else { per_cent(bound) };
         table.push(vec![
             format!("{} ± 7.5", fixed(Some(key.bearing_deg()), 0)),
             upper.map_or_else(|| format!("over {lower:.2}"), |u| format!("{lower:.2} to {u:.2}")),
@@ -36,8 +38,8 @@ pub(crate) fn figure(tally: &Tally) -> Figure {
             count(cell.collisions),
             count(cell.failures),
             per_cent_or_none(rate.rate),
-            per_cent(rate.lower_95),
-            per_cent(rate.upper_95),
+            part(rate.lower_95),
+            part(rate.upper_95),
         ]);
     }
     Figure {
@@ -48,9 +50,10 @@ pub(crate) fn figure(tally: &Tally) -> Figure {
              (sectors of 15 degrees, starboard positive) and target speed over own speed. A \
              failure is a collision, a broken safety radius or an unknown outcome. n = {} in {} \
              cells; empty cells had no encounter. Cells with few encounters say little: the table \
-             has their bounds.",
+             has their bounds.{}",
             count(n),
             cells.len(),
+            of_draws(weighted),
         ),
         svg: (n > 0).then(|| draw(&cells)),
         table,

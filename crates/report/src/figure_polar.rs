@@ -3,7 +3,8 @@
 use crate::canvas::{Area, At, Ink, Pen, Sheet, Type, sheet};
 use crate::figure::{DataTable, Figure};
 use crate::figure_map::{draw_key, step};
-use crate::number::{count, fixed, per_cent, per_cent_or_none, short_count};
+use crate::number::{count, fixed, per_cent_or_none, short_count};
+use crate::weighted::{of_draws, part_bounds};
 use geom::units::deg;
 use geom::{Vec2, angle};
 use summary::{BEARING_SECTORS, BoundedRate, CellKey, Tally};
@@ -14,8 +15,8 @@ const RADIUS: f64 = 205.0;
 const HOLE: f64 = 62.0;
 const HALF_SECTOR_DEG: f64 = 180.0 / BEARING_SECTORS as f64;
 
-/// The polar maps of all runs.
-pub(crate) fn figure(tally: &Tally) -> Figure {
+/// The polar maps of all runs; of weighted ones without bounds.
+pub(crate) fn figure(tally: &Tally, weighted: bool) -> Figure {
     let sectors = sectors(tally);
     let n: u64 = sectors.iter().map(|sector| sector.n).sum();
     let mut table = DataTable::new(&[
@@ -37,7 +38,7 @@ pub(crate) fn figure(tally: &Tally) -> Figure {
             let rate = BoundedRate::new(k, 0, sector.n);
             row.push(count(k));
             row.push(per_cent_or_none(rate.rate));
-            row.push(format!("{} to {}", per_cent(rate.lower_95), per_cent(rate.upper_95)));
+            row.push(part_bounds(&rate, weighted));
         }
         table.push(row);
     }
@@ -48,10 +49,11 @@ pub(crate) fn figure(tally: &Tally) -> Figure {
             "By the first target's relative bearing at the start, bow up, sectors of 15 degrees. \
              Left: failures (collision, broken safety radius, unknown outcome); right: collisions \
              alone. Large: how many; small: of how many encounters. n = {} in {} of {} sectors; \
-             empty sectors had no encounter. Dashed: 22.5 degrees abaft the beam (Rule 13).",
+             empty sectors had no encounter. Dashed: 22.5 degrees abaft the beam (Rule 13).{}",
             count(n),
             table.rows.len(),
             BEARING_SECTORS,
+            of_draws(weighted),
         ),
         svg: (n > 0).then(|| draw(&sectors)),
         table,

@@ -38,14 +38,21 @@ pub(crate) fn figure(strata: &[StratumSummary], of: &str) -> Figure {
         table.push(row);
     }
     let n: u64 = strata.iter().map(|stratum| stratum.n).sum();
+    let (dot, line) = if strata.iter().any(|stratum| stratum.weighted.is_some()) {
+        (
+            "the weighted share, where it rests on enough encounters",
+            "two-sided 95 % betting bounds, which hold for weights; counts are of the draws",
+        )
+    } else {
+        ("the share seen", "exact two-sided 95 % bounds (Clopper-Pearson)")
+    };
     Figure {
         stem: "rates".to_owned(),
         title: "Rates and their bounds".to_owned(),
         caption: format!(
             "Share of encounters with a collision (left) and with the safety radius broken \
-             (right), {of}. Dot: the share seen; line: exact two-sided 95 % bounds \
-             (Clopper-Pearson); runs of unknown outcome count as failures in the upper bound. \
-             Each side has its own scale.",
+             (right), {of}. Dot: {dot}; line: {line}; runs of unknown outcome count as failures in \
+             the upper bound. Each side has its own scale.",
         ),
         svg: (n > 0).then(|| draw(strata)),
         table,
@@ -80,13 +87,17 @@ fn draw_side(sheet: &mut Sheet, area: Area, title: &str, rates: &[BoundedRate], 
     panel.frame(sheet);
     sheet.text(title, area.x, area.y - 12.0, Type::new(13.0, Ink::Text, At::Left).bold());
     for (i, rate) in rates.iter().enumerate() {
-        let Some(seen) = rate.rate else { continue };
+        if rate.n == 0 {
+            continue;
+        }
         let y = area.y + ROW * (i as f64 + 0.5);
         let (low, high) = (panel.px(100.0 * rate.lower_95), panel.px(100.0 * rate.upper_95));
         sheet.line((low, y), (high, y), Pen::new(ink, 2.5));
         for x in [low, high] {
             sheet.line((x, y - 4.0), (x, y + 4.0), Pen::new(ink, 1.5));
         }
-        sheet.dot(panel.at(100.0 * seen, rates.len() as f64 - i as f64 - 0.5), 4.0, ink);
+        if let Some(seen) = rate.rate {
+            sheet.dot(panel.at(100.0 * seen, rates.len() as f64 - i as f64 - 0.5), 4.0, ink);
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! The findings as a reader sees them: what, in which class, how often, and the worst.
 
+use crate::group::Group;
 use crate::input::{Found, ReportInput};
 use crate::number::{count, per_cent};
-use crate::page::bounds;
+use crate::weighted::part_bounds;
 use geom::EncounterClass;
 use record::Status;
 use serde::Serialize;
-use summary::{BoundedRate, Event, Tally};
+use summary::{BoundedRate, Event};
 
 /// One line of the table of findings.
 #[derive(Serialize)]
@@ -32,11 +33,12 @@ pub(crate) struct FindingLine {
 /// A reader wants to see how it came to that moment, seconds.
 const LEAD_S: f64 = 20.0;
 
-pub(crate) fn lines(input: &ReportInput, whole: &Tally) -> Vec<FindingLine> {
+pub(crate) fn lines(input: &ReportInput, whole: &Group) -> Vec<FindingLine> {
     input.findings.iter().map(|found| line(input, whole, found)).collect()
 }
 
-fn line(input: &ReportInput, whole: &Tally, found: &Found) -> FindingLine {
+fn line(input: &ReportInput, group: &Group, found: &Found) -> FindingLine {
+    let whole = &group.tally;
     let finding = &found.finding;
     let n = match finding.event {
         // A check is counted where it applied, everything else in all runs of the class.
@@ -55,7 +57,7 @@ fn line(input: &ReportInput, whole: &Tally, found: &Found) -> FindingLine {
         planner: input.card.planner.clone(),
         count: count(finding.count),
         of: format!("of {} ({})", count(n), rate.rate.map_or_else(String::new, per_cent)),
-        bounds: bounds(&rate),
+        bounds: part_bounds(&rate, group.summary.weighted.is_some()),
         shown: input.cases.iter().any(|case| case.row.id == finding.worst),
         from_s: format!("{:.0}", (found.t_s.unwrap_or(0.0) - LEAD_S).max(0.0)),
         sentence: found.sentence.clone(),

@@ -1,6 +1,7 @@
 //! Which groups of runs the figures show.
 
 use crate::input::ReportInput;
+use crate::weighted;
 use summary::{StratumSummary, Tally};
 
 /// More groups than this do not fit a figure; the tables have them all.
@@ -40,5 +41,11 @@ pub(crate) fn groups(input: &ReportInput) -> Vec<Group> {
 
 /// All runs together, in the mix of the campaign.
 pub(crate) fn all(input: &ReportInput) -> Group {
-    Group::new("all strata", input.tallies.total())
+    let mut group = Group::new("all strata", input.tallies.total());
+    let weighted = input.summary.strata.iter().filter_map(|stratum| stratum.weighted.as_ref());
+    if let Some(weight_max) = weighted.map(|one| one.weight_max).reduce(f64::max) {
+        let summary = group.summary.with_weights(&group.tally, weight_max);
+        group.summary = weighted::shown(summary);
+    }
+    group
 }

@@ -32,6 +32,7 @@ mod player;
 mod simplify;
 mod time_charts;
 mod traffic;
+mod weighted;
 mod wording;
 mod write;
 

@@ -7,6 +7,7 @@ use crate::group::{Group, all, groups};
 use crate::input::{Case, ReportInput};
 use crate::number::{NONE, count, fixed, per_cent, per_cent_or_none};
 use crate::page_tables::{avoiding, classes, outcomes};
+use crate::weighted::{self, check_rate};
 use crate::wording::{self, Verdict, encounters, verdict};
 use crate::{ReportError, case_figure, figure_cpa, figure_map, figure_polar, figure_rates};
 use crate::{figure_times, font, player};
@@ -17,7 +18,8 @@ use summary::{AvoidableRates, BoundedRate, StratumSummary, Tally};
 /// All figures of a report, those of the cases last.
 pub(crate) fn figures(input: &ReportInput) -> Vec<Figure> {
     let card = input.card;
-    let groups = groups(input);
+    let (groups, whole) = (groups(input), all(input));
+    let weighted = whole.summary.weighted.is_some();
     let strata = input.summary.strata.iter().filter(|stratum| stratum.n > 0).count();
     let runs = format!(
         "n = {} in {strata} strat{}",
@@ -28,8 +30,8 @@ pub(crate) fn figures(input: &ReportInput) -> Vec<Figure> {
         figure_rates::figure(&rate_lines(input), &runs),
         figure_cpa::figure(&groups, card.safety_radius_m, card.distance),
         figure_times::figure(&groups),
-        figure_polar::figure(&all(input).tally),
-        figure_map::figure(&all(input).tally),
+        figure_polar::figure(&whole.tally, weighted),
+        figure_map::figure(&whole.tally, weighted),
     ];
     figures.extend(input.cases.iter().map(case_figure::figure));
     figures
@@ -40,6 +42,7 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
     let (general, cases) = figures.split_at(figures.len() - input.cases.len());
     let card = input.card;
     let whole = all(input);
+    let weighted = whole.summary.weighted.is_some();
     let view = View {
         css: css(),
         player: player::data(input.cases)?,
@@ -62,11 +65,13 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
         cards: cards(&whole.summary),
         not_claimed: wording::not_claimed(input, &whole),
         strata: strata(input, &whole),
+        strata_note: if weighted { weighted::NOTE } else { weighted::NOTE_PLAIN },
+        weighted: weighted::table(&rate_lines(input)),
         figures: general.iter().map(inline).collect(),
-        findings: findings::lines(input, &whole.tally),
-        rules: Check::ALL.into_iter().map(|check| rule_line(&whole.tally, check)).collect(),
+        findings: findings::lines(input, &whole),
+        rules: Check::ALL.into_iter().map(|check| rule_line(&whole, check)).collect(),
         onset: onset(&whole.tally),
-        classes: classes(&whole.tally),
+        classes: classes(&whole.tally, whole.summary.weighted.is_some()),
         avoiding: avoiding(&whole.summary),
         outcomes: outcomes(input, &whole),
         unavoidable: unavoidable(&whole),
@@ -133,6 +138,8 @@ struct View<'a> {
     cards: Vec<Headline>,
     not_claimed: Vec<String>,
     strata: Vec<StratumLine>,
+    strata_note: &'static str,
+    weighted: Option<DataTable>,
     figures: Vec<Figure>,
     findings: Vec<FindingLine>,
     rules: Vec<RuleLine>,
@@ -226,16 +233,19 @@ pub(crate) fn bounds(rate: &BoundedRate) -> String {
     format!("{} to {}", per_cent(rate.lower_95), per_cent(rate.upper_95))
 }
 
-pub(crate) use summary::check_rate;
-
 fn turn_rate(summary: &StratumSummary) -> BoundedRate {
-    check_rate(|status| summary.turn_direction.get(&status).copied().unwrap_or(0))
+    check_rate(summary, Check::Turn)
+}
+
+/// The strata of the campaign, with the rates that a page shows of them.
+fn shown_strata(input: &ReportInput) -> Vec<StratumSummary> {
+    input.summary.strata.iter().cloned().map(weighted::shown).collect()
 }
 
 /// The strata, and all together when there are several.
 fn rate_lines(input: &ReportInput) -> Vec<StratumSummary> {
     let mut lines: Vec<StratumSummary> =
-        input.summary.strata.iter().filter(|stratum| stratum.n > 0).cloned().collect();
+        shown_strata(input).into_iter().filter(|stratum| stratum.n > 0).collect();
     if lines.len() > 1 {
         lines.push(all(input).summary);
     }
@@ -296,16 +306,17 @@ fn strata(input: &ReportInput, whole: &Group) -> Vec<StratumLine> {
         }
     };
     let mut lines: Vec<StratumLine> =
-        input.summary.strata.iter().map(|stratum| line(stratum, false)).collect();
+        shown_strata(input).iter().map(|stratum| line(stratum, false)).collect();
     if lines.len() > 1 {
         lines.push(line(&whole.summary, true));
     }
     lines
 }
 
-fn rule_line(tally: &Tally, check: Check) -> RuleLine {
+fn rule_line(whole: &Group, check: Check) -> RuleLine {
+    let tally = &whole.tally;
     let of = |status| tally.check(check, status);
-    let rate = check_rate(of);
+    let rate = check_rate(&whole.summary, check);
     let share =
         |n: u64| if tally.n == 0 { NONE.into() } else { per_cent(n as f64 / tally.n as f64) };
     RuleLine {
@@ -342,7 +353,12 @@ fn onset(tally: &Tally) -> String {
 
 fn unavoidable(whole: &Group) -> Option<String> {
     let asked = whole.tally.avoidable + whole.tally.unavoidable;
-    AvoidableRates::new(&whole.tally).map(|without| {
+    AvoidableRates::new(&whole.tally).map(|mut without| {
+        let weighted = whole.summary.weighted.as_ref().and_then(|w| w.without_unavoidable);
+        if let Some(weighted) = weighted {
+            weighted::take(&mut without.collision, &weighted.collision);
+            weighted::take(&mut without.safety_radius, &weighted.safety_radius);
+        }
         let line = |rate: &BoundedRate| format!("{} of {} ({})", rate.k, rate.n, bounds(rate));
         format!(
             "{} of {} runs ended in a contact that own ship could not have avoided: hard over by \

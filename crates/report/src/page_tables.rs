@@ -4,12 +4,13 @@ use crate::figure::DataTable;
 use crate::group::Group;
 use crate::input::ReportInput;
 use crate::number::{NONE, count, per_cent_or_none, significant};
-use crate::page::{bounds, check_rate};
+use crate::weighted::part_bounds;
 use geom::EncounterClass;
 use record::{Check, Outcome, Status};
-use summary::{PairedRates, StratumSummary, Tally};
+use summary::{PairedRates, StratumSummary, Tally, check_rate};
 
-pub(crate) fn classes(tally: &Tally) -> DataTable {
+/// Of weighted runs there are no bounds by class: the counts are of the draws.
+pub(crate) fn classes(tally: &Tally, weighted: bool) -> DataTable {
     let mut table = DataTable::new(&[
         "class",
         "n",
@@ -37,7 +38,7 @@ pub(crate) fn classes(tally: &Tally) -> DataTable {
                 count(of(Status::Fail)),
                 count(of(Status::Inconclusive)),
                 per_cent_or_none(rate.rate),
-                bounds(&rate),
+                part_bounds(&rate, weighted),
             ]);
         }
     }
@@ -66,7 +67,7 @@ pub(crate) fn avoiding(whole: &StratumSummary) -> DataTable {
             count(pairs.caused),
             count(pairs.unknown),
             ratio(pairs.risk_ratio),
-            match pairs.risk_ratio {
+            match pairs.lower_95 {
                 Some(_) => format!("{} to {}", ratio(pairs.lower_95), ratio(pairs.upper_95)),
                 None => NONE.to_owned(),
             },

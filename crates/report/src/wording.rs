@@ -114,8 +114,11 @@ pub(crate) fn not_claimed(input: &ReportInput, whole: &Group) -> Vec<String> {
     }
     if let Some(n_effective) = summary.n_effective {
         sentences.push(format!(
-            "The encounters carry importance weights (worth {} unweighted ones); the rates here \
-             are shares of the draws and must not be read as rates of the weighted population.",
+            "The encounters carry importance weights (they are worth {} unweighted ones). Rates \
+             and bounds of strata, checks and avoiding are weighted: of the encounters that the \
+             declared traffic makes, near passes no oftener than it has them. Every count, and \
+             what is shown without bounds (findings, maps, classes, times, distances), is of the \
+             draws.",
             crate::number::significant(n_effective, 4)
         ));
     }

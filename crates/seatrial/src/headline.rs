@@ -2,7 +2,7 @@
 
 use record::Status;
 use std::fmt::Write;
-use summary::{BoundedRate, Summary};
+use summary::{BoundedRate, StratumSummary, Summary};
 
 /// From this width on the table has columns; below it each stratum gets lines of its own.
 const COLUMNS_MIN: usize = 96;
@@ -14,7 +14,11 @@ pub(crate) fn terminal_columns() -> usize {
 
 /// The headline figures of a result.
 pub(crate) fn table(summary: &Summary, columns: usize) -> String {
-    if columns >= COLUMNS_MIN { wide(summary) } else { narrow(summary) }
+    let mut text = if columns >= COLUMNS_MIN { wide(summary) } else { narrow(summary) };
+    if summary.strata.iter().any(|stratum| stratum.weighted.is_some()) {
+        text.push_str(WEIGHTED);
+    }
+    text
 }
 
 /// What must be said beside a root digest that holds runs which the wall clock ended.
@@ -47,8 +51,8 @@ fn wide(summary: &Summary) -> String {
             "{:name$} {:>8}  {:26} {:26} {fails:>9} {:>10} {:>9}",
             s.name,
             s.n,
-            rate(&s.collision),
-            rate(&s.safety_radius),
+            rates(s)[0],
+            rates(s)[1],
             seconds(s.reaction_time_s.median),
             metres(s.min_cpa_m.p01),
         )
@@ -67,8 +71,8 @@ fn narrow(summary: &Summary) -> String {
              reaction  {}\n  CPA p01   {}\n",
             s.name,
             s.n,
-            rate(&s.collision),
-            rate(&s.safety_radius),
+            rates(s)[0],
+            rates(s)[1],
             seconds(s.reaction_time_s.median),
             metres(s.min_cpa_m.p01),
         )
@@ -77,7 +81,22 @@ fn narrow(summary: &Summary) -> String {
     text
 }
 
-fn rate(rate: &BoundedRate) -> String {
+/// Under the table of a weighted campaign.
+const WEIGHTED: &str = "rates are weighted, bounds are betting bounds, which hold for weights; -: \
+                        too few events for a rate\nturn failures, reactions and distances are of \
+                        the draws\n";
+
+/// Collision, and safety radius broken: of the population where encounters carry weights.
+fn rates(stratum: &StratumSummary) -> [String; 2] {
+    let plain = |rate: &BoundedRate| rate_text(rate.rate, rate.lower_95, rate.upper_95);
+    match &stratum.weighted {
+        None => [plain(&stratum.collision), plain(&stratum.safety_radius)],
+        Some(weighted) => [&weighted.collision, &weighted.safety_radius]
+            .map(|rate| rate_text(rate.rate, rate.lower_95, rate.upper_95)),
+    }
+}
+
+fn rate_text(rate: Option<f64>, lower_95: f64, upper_95: f64) -> String {
     let short = |value: f64| {
         if value <= 0.0 {
             "0".to_owned()
@@ -87,8 +106,8 @@ fn rate(rate: &BoundedRate) -> String {
             format!("{value:.1e}")
         }
     };
-    let shown = rate.rate.map_or("-".to_owned(), short);
-    format!("{shown} [{}, {}]", short(rate.lower_95), short(rate.upper_95))
+    let shown = rate.map_or("-".to_owned(), short);
+    format!("{shown} [{}, {}]", short(lower_95), short(upper_95))
 }
 
 fn seconds(value: Option<f64>) -> String {

@@ -47,7 +47,7 @@ impl Rendering {
         }
         let findings = findings.into_iter().map(|f| shown.found(f)).collect::<Result<_, _>>()?;
         let cases = ids.iter().map(|id| shown.case(id)).collect::<Result<_, _>>()?;
-        let summary = summary(plan, &tallies, root_digest, disagreements);
+        let summary = summary(plan, &tallies, root_digest, disagreements)?;
         let scenes = scenes(plan, &summary);
         let scenes = scenes.iter().map(|id| shown.case(id)).collect::<Result<_, _>>()?;
         Ok(Self { card: card(plan)?, summary, tallies, findings, cases, scenes })
@@ -72,15 +72,17 @@ pub(crate) fn summary(
     tallies: &Tallies,
     root_digest: String,
     disagreements: &[String],
-) -> Summary {
+) -> Result<Summary, Error> {
     let head = SummaryHead {
         campaign: plan.campaign.clone(),
         planner: plan.planner.name.clone(),
         seed: plan.seed,
         root_digest,
     };
-    Summary::new(head, tallies, plan.strata.iter().map(String::as_str))
-        .with_disagreements(disagreements.to_vec())
+    let weight_max = plan.weight_max()?;
+    Ok(Summary::new(head, tallies, plan.strata.iter().map(String::as_str))
+        .with_weights(tallies, |stratum| weight_max.get(stratum).copied())
+        .with_disagreements(disagreements.to_vec()))
 }
 
 /// Whether a run with this outcome takes its process with it, and so is not run again here.
@@ -208,7 +210,7 @@ pub(crate) fn card(plan: &Plan) -> Result<Card, Error> {
         // a report must not depend on where it was written: the folder is the one it stands in
         replay_command: "seatrial replay . {id}".to_owned(),
         resolved,
-        not_claimed: Vec::new(),
+        not_claimed: plan.warnings(),
         beside: false,
     })
 }

@@ -52,8 +52,8 @@ pub use paired::{
 };
 pub use rare::{ImportanceFitness, last_particle, last_particle_cv_squared, replications};
 pub use ratio::{
-    RiskCounts, RiskEvent, RiskPart, RiskSums, betting_ratio, betting_ratio_upper, exact_ratio,
-    exact_ratio_upper,
+    RiskCounts, RiskEvent, RiskPart, RiskSums, betting_ratio, betting_ratio_lower,
+    betting_ratio_upper, exact_ratio, exact_ratio_upper,
 };
 pub use sample_size::{
     encounters_fixed_test, encounters_for_bound, encounters_for_width, events_allowance,

@@ -10,7 +10,7 @@ use crate::error::{StatsError, check_open, check_unit};
 use crate::math::{exp, ln, pow, real};
 use crate::special::{chi_squared_quantile, student_t_quantile};
 use crate::weighted::check_weights;
-use crate::{Estimate, Method};
+use crate::{Estimate, Method, WeightedCount};
 
 /// How far an importance-sampling estimate rests on few samples.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -31,18 +31,30 @@ impl ImportanceFitness {
     /// # Errors
     /// A negative weight, more events than samples, or fewer than two samples.
     pub fn new(event_weights: &[f64], n: u64) -> Result<Self, StatsError> {
-        check_weights(event_weights.iter().copied(), "weight", f64::MAX)?;
+        let events: Vec<WeightedCount> =
+            event_weights.iter().map(|&weight| WeightedCount { weight, count: 1 }).collect();
+        Self::of_counts(&events, n)
+    }
+
+    /// The same from the weights that the samples with the event have, each with how often.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_counts(events: &[WeightedCount], n: u64) -> Result<Self, StatsError> {
+        check_weights(events.iter().map(|event| event.weight), "weight", f64::MAX)?;
         if n < 2 {
             return Err(StatsError::TooFew { what: "a standard error", need: "two samples" });
         }
-        let events = event_weights.len() as u64;
-        crate::error::check_counts(events, n)?;
-        let sum: f64 = event_weights.iter().sum();
-        let squares: f64 = event_weights.iter().map(|w| w * w).sum();
+        let count = events.iter().map(|event| event.count).sum();
+        crate::error::check_counts(count, n)?;
+        let over = |of: &dyn Fn(f64) -> f64| -> f64 {
+            events.iter().map(|event| real(event.count) * of(event.weight)).sum()
+        };
+        let (sum, squares) = (over(&|w| w), over(&|w| w * w));
         let rate = sum / real(n);
-        let spread: f64 = event_weights.iter().map(|w| (w - rate) * (w - rate)).sum::<f64>()
-            + real(n - events) * rate * rate;
-        let largest = event_weights.iter().copied().fold(0.0, f64::max);
+        let spread = over(&|w| (w - rate) * (w - rate)) + real(n - count) * rate * rate;
+        let seen = events.iter().filter(|event| event.count > 0);
+        let largest = seen.map(|event| event.weight).fold(0.0, f64::max);
         let none = sum <= 0.0;
         Ok(Self {
             rate,

@@ -246,13 +246,7 @@ pub fn betting_ratio(
 ) -> Result<Estimate, StatsError> {
     check_unit("alpha", alpha)?;
     let upper = betting_ratio_upper(events, weight_max, 0.5 * alpha)?;
-    let ln_level = ln(2.0 / alpha);
-    let lower = if ln_e_ratio(events, weight_max, 0.0, 1.0) < ln_level {
-        0.0
-    } else {
-        bisect(0.0, upper, |ratio| ln_e_ratio(events, weight_max, ratio, ratio.max(1.0)) < ln_level)
-            .0
-    };
+    let lower = betting_ratio_lower(events, weight_max, 0.5 * alpha)?;
     let sum = |of: fn(&RiskEvent) -> bool| -> f64 {
         events.iter().filter(|e| of(e)).map(|e| e.weight * real(e.count)).sum()
     };
@@ -285,6 +279,32 @@ pub fn betting_ratio_upper(
         }
     }
     Ok(bisect(0.0, high, reached).1)
+}
+
+/// The one-sided lower bound of [`betting_ratio`] at confidence 1 - `alpha`; 0 where nothing is
+/// refuted.
+///
+/// # Errors
+/// As [`betting_ratio`], but for nominal risk: without any there is still a lower bound.
+pub fn betting_ratio_lower(
+    events: &[RiskEvent],
+    weight_max: f64,
+    alpha: f64,
+) -> Result<f64, StatsError> {
+    check_unit("alpha", alpha)?;
+    check_open("weight_max", weight_max, 0.0, f64::INFINITY)?;
+    check_weights(events.iter().map(|event| event.weight), "weight", weight_max)?;
+    let ln_level = -ln(alpha);
+    let kept = |ratio: f64| ln_e_ratio(events, weight_max, ratio, ratio.max(1.0)) < ln_level;
+    if kept(0.0) {
+        return Ok(0.0);
+    }
+    // with R each bet shrinks to nothing, so some R is kept
+    let mut high = 1.0;
+    while !kept(high) {
+        high *= 2.0;
+    }
+    Ok(bisect(0.0, high, kept).0)
 }
 
 /// ln E_R with stakes on X_i / `scale`: a negative scale of -1 bets that RR is below R, a

@@ -88,45 +88,78 @@ impl MeanBets {
     /// A value outside [0, 1], more values than `n`, no value at all, or `alpha` out of range.
     pub fn interval(&self, values: &[f64], n: u64, alpha: f64) -> Result<Estimate, StatsError> {
         check_unit("alpha", alpha)?;
-        check_weights(values.iter().copied(), "value", 1.0)?;
-        let listed = values.len() as u64;
-        crate::error::check_counts(listed, n)?;
-        let zeros = real(n - listed);
-        let ln_level = ln(2.0 / alpha);
-        let sum: f64 = values.iter().sum();
-        let squares: f64 = values.iter().map(|value| value * value).sum();
-        let upper =
-            bisect(0.0, 1.0, |mean| self.ln_wealth_above(values, zeros, mean) >= ln_level).1;
+        let values: Vec<WeightedCount> =
+            values.iter().map(|&weight| WeightedCount { weight, count: 1 }).collect();
+        let (lower, upper) =
+            (self.lower(&values, n, 0.5 * alpha)?, self.upper(&values, n, 0.5 * alpha)?);
+        let (sum, squares) = moments(&values);
         let value = sum / real(n);
-        let lower = if self.ln_wealth_below(values, zeros, f64::MIN_POSITIVE) < ln_level {
-            0.0
-        } else {
-            bisect(f64::MIN_POSITIVE, value.min(1.0), |mean| {
-                self.ln_wealth_below(values, zeros, mean) < ln_level
-            })
-            .0
-        };
         let n_effective = if squares > 0.0 { sum * sum / squares } else { 0.0 };
         Ok(Estimate { value, lower, upper, n, n_effective, method: Method::Betting })
     }
 
+    /// The upper bound at one-sided confidence 1 - `alpha` for the mean of `n` values, given those
+    /// that are not zero, each with how often it occurs. It rises with every value: values that are
+    /// rounded up give a bound that holds for the true ones.
+    ///
+    /// # Errors
+    /// As [`Self::interval`].
+    pub fn upper(&self, values: &[WeightedCount], n: u64, alpha: f64) -> Result<f64, StatsError> {
+        let (zeros, ln_level) = (zeros(values, n)?, level(alpha)?);
+        let reached = |mean: f64| self.ln_wealth_above(values, zeros, mean) >= ln_level;
+        Ok(bisect(0.0, 1.0, reached).1)
+    }
+
+    /// The lower bound, as [`Self::upper`]; it holds for values that are rounded down.
+    ///
+    /// # Errors
+    /// As [`Self::interval`].
+    pub fn lower(&self, values: &[WeightedCount], n: u64, alpha: f64) -> Result<f64, StatsError> {
+        let (zeros, ln_level) = (zeros(values, n)?, level(alpha)?);
+        if self.ln_wealth_below(values, zeros, f64::MIN_POSITIVE) < ln_level {
+            return Ok(0.0);
+        }
+        let seen = moments(values).0 / real(n);
+        let kept = |mean: f64| self.ln_wealth_below(values, zeros, mean) < ln_level;
+        Ok(bisect(f64::MIN_POSITIVE, seen.min(1.0), kept).0)
+    }
+
     /// ln E against "the mean is at least `mean`"; grows with `mean`.
-    fn ln_wealth_above(&self, values: &[f64], zeros: f64, mean: f64) -> f64 {
+    fn ln_wealth_above(&self, values: &[WeightedCount], zeros: f64, mean: f64) -> f64 {
         mixture(&self.upper, |fraction| {
             let stake = fraction / (1.0 - mean);
-            let bets = values.iter().map(|value| log1p(stake * (mean - value)));
+            let bets = values.iter().map(|v| real(v.count) * log1p(stake * (mean - v.weight)));
             bets.sum::<f64>() + zeros * log1p(stake * mean)
         })
     }
 
     /// ln E against "the mean is at most `mean`"; falls with `mean`.
-    fn ln_wealth_below(&self, values: &[f64], zeros: f64, mean: f64) -> f64 {
+    fn ln_wealth_below(&self, values: &[WeightedCount], zeros: f64, mean: f64) -> f64 {
         mixture(&self.lower, |stake| {
             let stake = stake.min(0.999 / mean);
-            let bets = values.iter().map(|value| log1p(stake * (value - mean)));
+            let bets = values.iter().map(|v| real(v.count) * log1p(stake * (v.weight - mean)));
             bets.sum::<f64>() + zeros * log1p(-stake * mean)
         })
     }
+}
+
+/// How many of `n` values in [0, 1] are zero, given the others.
+fn zeros(values: &[WeightedCount], n: u64) -> Result<f64, StatsError> {
+    check_weights(values.iter().map(|value| value.weight), "value", 1.0)?;
+    let listed = values.iter().map(|value| value.count).sum();
+    crate::error::check_counts(listed, n)?;
+    Ok(real(n - listed))
+}
+
+fn level(alpha: f64) -> Result<f64, StatsError> {
+    check_unit("alpha", alpha)?;
+    Ok(-ln(alpha))
+}
+
+/// Sum of the values, and of their squares.
+fn moments(values: &[WeightedCount]) -> (f64, f64) {
+    let sum = |of: fn(f64) -> f64| values.iter().map(|v| of(v.weight) * real(v.count)).sum();
+    (sum(|value| value), sum(|value| value * value))
 }
 
 /// As [`Stakes::ln_mixture`], each wealth computed once.

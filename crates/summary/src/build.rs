@@ -3,7 +3,7 @@
 use crate::summary::SCHEMA;
 use crate::{
     AvoidableRates, BoundedRate, CpaSummary, PairedCounts, PairedRates, PlannerClass, SecondJudge,
-    StratumSummary, Summary, SummaryHead, Tallies, Tally, TimeSummary, Times,
+    StratumSummary, Summary, SummaryHead, Tallies, Tally, TimeSummary, Times, WeightedSummary,
 };
 use record::{Check, EncounterClass, Outcome, Status};
 use std::collections::BTreeMap;
@@ -120,7 +120,16 @@ impl StratumSummary {
                 let sum = tally.weight_sum.value();
                 sum * sum / tally.weight_square_sum.value()
             }),
+            weighted: None,
         }
+    }
+
+    /// With the rates of the population that the weights stand for: they have mean 1 and are at
+    /// most `weight_max`.
+    #[must_use]
+    pub fn with_weights(mut self, tally: &Tally, weight_max: f64) -> Self {
+        self.weighted = Some(WeightedSummary::new(tally, weight_max));
+        self
     }
 }
 

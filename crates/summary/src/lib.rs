@@ -8,6 +8,7 @@
 
 mod bearing_map;
 mod build;
+mod by_weight;
 mod findings;
 mod fixed_point;
 mod planner_event;
@@ -16,9 +17,11 @@ mod summary;
 mod tallies;
 mod tally;
 mod times;
+mod weighted;
 
 pub use bearing_map::{BEARING_SECTORS, BearingMap, Cell, CellKey, RATIO_BANDS};
 pub use build::check_rate;
+pub use by_weight::{ByWeight, EventCounts, WeightBin, WeightCounts};
 pub use findings::{Event, Finding, Findings};
 pub use fixed_point::FixedSum;
 pub use planner_event::PlannerEvent;
@@ -28,5 +31,6 @@ pub use summary::{
     StratumSummary, Summary, SummaryHead, TimeSummary, list_disagreement,
 };
 pub use tallies::Tallies;
-pub use tally::{Tally, UnavoidableEvents};
+pub use tally::Tally;
 pub use times::Times;
+pub use weighted::{WeightedAvoidable, WeightedRate, WeightedRatio, WeightedSummary};

@@ -1,5 +1,6 @@
 //! `summary.json`, field by field.
 
+use crate::{Tallies, Tally, WeightedSummary};
 use record::{Check, EncounterClass, Outcome, RunRow, Seed, Status};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -98,6 +99,23 @@ impl Summary {
         self
     }
 
+    /// With the rates of the population, where `weight_max` gives the largest weight that can be
+    /// drawn of a stratum.
+    #[must_use]
+    pub fn with_weights(
+        mut self,
+        tallies: &Tallies,
+        weight_max: impl Fn(&str) -> Option<f64>,
+    ) -> Self {
+        let empty = Tally::new();
+        for stratum in &mut self.strata {
+            stratum.weighted = weight_max(&stratum.name).map(|largest| {
+                WeightedSummary::new(tallies.stratum(&stratum.name).unwrap_or(&empty), largest)
+            });
+        }
+        self
+    }
+
     /// All rows of a planner whose outcome is unknown.
     pub fn unknown(&self) -> u64 {
         self.strata.iter().map(|stratum| stratum.unknown).sum()
@@ -145,8 +163,11 @@ pub struct StratumSummary {
     /// The headline rates again without those runs; absent where none was asked for.
     pub without_unavoidable: Option<AvoidableRates>,
     /// What the runs are worth, (sum w)^2 / sum w^2; absent while all weights are 1. Where it is
-    /// present the rates above are shares of the draws, not of the population.
+    /// present the rates above, and their bounds, are shares of the draws, not of the population.
     pub n_effective: Option<f64>,
+    /// The rates of the population that the weights stand for; no such key without weights.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weighted: Option<WeightedSummary>,
 }
 
 /// The headline rates of the runs that some manoeuvre of own ship could have cleared, and of those

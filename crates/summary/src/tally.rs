@@ -1,6 +1,6 @@
 //! Everything that is counted of the runs of one stratum.
 
-use crate::{BearingMap, FixedSum, PairedCounts, Times};
+use crate::{BearingMap, ByWeight, EventCounts, FixedSum, PairedCounts, Times};
 use record::{Check, EncounterClass, Outcome, RunRow, Status};
 use serde::{Deserialize, Serialize};
 use stats::{Bins, Histogram, QuantileValue};
@@ -38,7 +38,7 @@ pub struct Tally {
     /// Unavoidable ones that collided, or are unknown.
     pub unavoidable_failed: u64,
     /// Unavoidable ones that collided, that broke the safety radius, and the unknown ones of each.
-    pub unavoidable_events: UnavoidableEvents,
+    pub unavoidable_events: EventCounts,
     /// Runs in which the last waypoint was reached.
     pub goal_reached: u64,
     /// Runs that the second judge was asked about, and those in which it disagreed.
@@ -57,6 +57,8 @@ pub struct Tally {
     pub weight_square_sum: FixedSum,
     /// Runs whose weight is not 1.
     pub weighted: u64,
+    /// The runs by the size of their weight.
+    pub by_weight: ByWeight,
     /// Smallest hull-to-hull distance of the runs in which it is known, metres.
     pub cpa_hull_m: Histogram,
     /// Runs that have targets and whose smallest distance is unknown.
@@ -86,19 +88,6 @@ struct ClassCounts {
 /// Distances beyond this are counted together, metres.
 const CPA_END_M: u32 = 20_000;
 
-/// What is left out of the rates of avoidable runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct UnavoidableEvents {
-    /// Own ship hit a target.
-    pub collisions: u64,
-    /// The safety radius was broken.
-    pub breaches: u64,
-    /// Unknown runs that did not collide before.
-    pub unknown_without_collision: u64,
-    /// Unknown runs that had not broken the safety radius before.
-    pub unknown_without_breach: u64,
-}
-
 impl Default for Tally {
     fn default() -> Self {
         let class = ClassCounts { n: 0, checks: vec![[0; STATUSES]; Check::COUNT] };
@@ -115,7 +104,7 @@ impl Default for Tally {
             avoidable: 0,
             unavoidable: 0,
             unavoidable_failed: 0,
-            unavoidable_events: UnavoidableEvents::default(),
+            unavoidable_events: EventCounts::default(),
             goal_reached: 0,
             second_judge_asked: 0,
             judges_disagree: 0,
@@ -125,6 +114,7 @@ impl Default for Tally {
             weight_sum: FixedSum::default(),
             weight_square_sum: FixedSum::default(),
             weighted: 0,
+            by_weight: ByWeight::default(),
             cpa_hull_m: Histogram::new(Bins::tenths_up_to(CPA_END_M)),
             cpa_unknown: 0,
             reaction: Times::default(),
@@ -160,11 +150,7 @@ impl Tally {
         self.unavoidable_failed +=
             u64::from(row.unavoidable == Some(true) && (collided || row.unknown));
         if row.unavoidable == Some(true) {
-            let events = &mut self.unavoidable_events;
-            events.collisions += u64::from(collided);
-            events.breaches += u64::from(breach);
-            events.unknown_without_collision += u64::from(row.unknown && !collided);
-            events.unknown_without_breach += u64::from(row.unknown && !breach);
+            self.unavoidable_events.add(row);
         }
         self.goal_reached += u64::from(row.goal_reached);
         self.second_judge_asked += u64::from(row.judges_disagree.is_some());
@@ -177,8 +163,11 @@ impl Tally {
         self.map.add(row);
         let nominal_collision = row.nominal_cpa_hull_m.map(|distance_m| distance_m <= 0.0);
         let known = |event: bool| (event || !row.unknown).then_some(event);
-        self.collision_pairs.add(nominal_collision, known(collided));
-        self.safety_radius_pairs.add(row.nominal_safety_radius_broken, known(breach));
+        let collision = (nominal_collision, known(collided));
+        let safety_radius = (row.nominal_safety_radius_broken, known(breach));
+        self.collision_pairs.add(collision.0, collision.1);
+        self.safety_radius_pairs.add(safety_radius.0, safety_radius.1);
+        self.by_weight.add(row, collision, safety_radius);
         self.outcomes[row.outcome as usize] += 1;
         self.add_checks(row);
         let e = &row.events;
@@ -214,6 +203,7 @@ impl Tally {
         self.map.merge(&other.map);
         self.collision_pairs.merge(&other.collision_pairs);
         self.safety_radius_pairs.merge(&other.safety_radius_pairs);
+        self.by_weight.merge(&other.by_weight);
     }
 
     /// Runs that ended so.
@@ -321,7 +311,7 @@ impl Tally {
             unavoidable,
             unavoidable_failed,
             unavoidable_events:
-                UnavoidableEvents {
+                EventCounts {
                     collisions: unavoidable_collisions,
                     breaches: unavoidable_breaches,
                     unknown_without_collision: unavoidable_unknown_without_collision,
@@ -336,6 +326,7 @@ impl Tally {
             weight_sum: _,
             weight_square_sum: _,
             weighted,
+            by_weight: _,
             cpa_hull_m: _,
             cpa_unknown,
             reaction: _,

@@ -223,7 +223,10 @@ proptest! {
             serde_json::to_string(&merged).unwrap(),
             serde_json::to_string(&whole).unwrap()
         );
-        let json = |tallies| Summary::new(head(), tallies, ["head_on"]).to_json();
+        let json = |tallies| {
+            let summary = Summary::new(head(), tallies, ["head_on"]);
+            summary.with_weights(tallies, |_| Some(4.0)).to_json()
+        };
         prop_assert_eq!(json(&merged), json(&whole));
     }
 

@@ -120,6 +120,7 @@ impl Job<'_> {
                 plan.seed,
                 plan.encounters()
             );
+            plan.warnings().iter().for_each(|warning| say!("note: {warning}"));
         }
         let folder = match Folder::open(folder, plan, self.args.resume, self.args.force)? {
             Opened::Ready(folder) => folder,

@@ -37,6 +37,7 @@ pub(super) fn run(wanted: &Wanted<'_>, registry: Registry) -> Result<Ended, Erro
     let (folder, plan) = Folder::existing(wanted.dir)?;
     let table = crate::stored::whole_table(folder.path())?;
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
+    plan.refuse_weights("the claims of an evidence pack")?;
     unchanged(folder.path())?;
     let given =
         super::evidence_given::gather(folder.path(), &plan, wanted.self_test, wanted.previous)?;

@@ -18,7 +18,7 @@ use record::{RootDigest, RunRow};
 use rules::RuleSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use summary::{Summary, SummaryHead, Tallies};
+use summary::{Summary, Tallies};
 
 pub(super) fn run(args: &JudgeArgs, registry: Registry) -> Result<Ended, Error> {
     let (folder, plan) = Folder::existing(&args.dir)?;
@@ -86,6 +86,7 @@ impl Job<'_> {
 
     /// The rule set with one threshold at several values.
     fn sweep(&self, rules: &RulesChoice, values: &Values) -> Result<Ended, Error> {
+        self.plan.refuse_weights("a sweep")?;
         let base = rules.rule_set()?;
         let mut sets = vec![base.clone()];
         for value in &values.values {
@@ -140,23 +141,17 @@ impl Job<'_> {
         progress.end();
         ended?;
         let root_digest = root.hex();
-        let strata = || self.plan.strata.iter().map(String::as_str);
-        let head = || SummaryHead {
-            campaign: self.plan.campaign.clone(),
-            planner: self.plan.planner.name.clone(),
-            seed: self.plan.seed,
-            root_digest: root_digest.clone(),
+        let summary = |tallies: &Tallies, ids: Vec<String>| {
+            crate::rendering::summary(self.plan, tallies, root_digest.clone(), &ids)
         };
-        Ok(texts
+        texts
             .into_iter()
             .zip(tallies)
             .zip(disagreeing)
-            .map(|((rules, tallies), ids)| JudgedAgain {
-                summary: Summary::new(head(), &tallies, strata()).with_disagreements(ids),
-                tallies,
-                rules,
+            .map(|((rules, tallies), ids)| {
+                Ok(JudgedAgain { summary: summary(&tallies, ids)?, tallies, rules })
             })
-            .collect())
+            .collect()
     }
 
     /// The folder of what is found, made.

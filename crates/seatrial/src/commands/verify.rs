@@ -160,7 +160,7 @@ impl Content<'_> {
             &gathered.tallies,
             gathered.root_digest.clone(),
             &gathered.disagreements,
-        );
+        )?;
         let again = evidence::from_rows(self.plan, gathered, &summary, build::CARGO_LOCK);
         let again = again.map_err(failed)?;
         let mut problems = evidence::compare(self.pack, &again);
