@@ -44,8 +44,11 @@ pub(crate) fn all(input: &ReportInput) -> Group {
     let mut group = Group::new("all strata", input.tallies.total());
     let weighted = input.summary.strata.iter().filter_map(|stratum| stratum.weighted.as_ref());
     if let Some(weight_max) = weighted.map(|one| one.weight_max).reduce(f64::max) {
-        let summary = group.summary.with_weights(&group.tally, weight_max);
-        group.summary = weighted::shown(summary);
+        group.summary = match &input.summary.strata[..] {
+            [one] => StratumSummary { name: group.name.clone(), ..one.clone() },
+            _ => group.summary.with_weights(&group.tally, weight_max),
+        };
+        group.summary = weighted::shown(group.summary);
     }
     group
 }

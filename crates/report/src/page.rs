@@ -262,9 +262,10 @@ fn cards(whole: &StratumSummary) -> Vec<Headline> {
         ],
     };
     let reaction = &whole.reaction_time_s;
+    let of = if whole.weighted.is_some() { "draws" } else { "encounters" };
     vec![
-        rate("Collisions", &whole.collision, "encounters"),
-        rate("Safety radius broken", &whole.safety_radius, "encounters"),
+        rate("Collisions", &whole.collision, of),
+        rate("Safety radius broken", &whole.safety_radius, of),
         rate("Turn direction failed", &turn_rate(whole), "to which it applied"),
         Headline {
             label: "Reaction time, half by",

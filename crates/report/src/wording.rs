@@ -84,11 +84,14 @@ fn failed_checks(whole: &StratumSummary) -> Vec<String> {
 /// What follows from the numbers, then what the campaign says of itself.
 pub(crate) fn not_claimed(input: &ReportInput, whole: &Group) -> Vec<String> {
     let summary = &whole.summary;
-    let mut sentences = vec![
+    let of = if summary.weighted.is_some() {
+        "Rates are those of the traffic that this campaign declares, which is no traffic at sea \
+         until its distributions are one's."
+    } else {
         "Rates are those of encounters drawn as this campaign says, strata in the numbers that it \
          asks for; they are not rates of any traffic at sea."
-            .to_owned(),
-    ];
+    };
+    let mut sentences = vec![of.to_owned()];
     if summary.n > 0 && summary.collision.k == 0 {
         sentences.push(format!(
             "No collision was seen. That does not show that there is none: at 95 % confidence up \
@@ -130,16 +133,19 @@ pub(crate) fn not_claimed(input: &ReportInput, whole: &Group) -> Vec<String> {
             disagreements(&input.summary.second_judge)
         ));
     }
-    sentences.extend(by_planner_class(&input.summary.planner_class, summary.n));
+    sentences.extend(by_planner_class(&input.summary.planner_class, summary));
     sentences.extend(input.card.not_claimed.iter().cloned());
     sentences
 }
 
 /// The rates under the planner's own class, beside the judge's, where a check's differ.
-fn by_planner_class(class: &summary::PlannerClass, n: u64) -> Option<String> {
+fn by_planner_class(class: &summary::PlannerClass, whole: &StratumSummary) -> Option<String> {
     if class.disagree == 0 {
         return None;
     }
+    let n = whole.n;
+    let rates =
+        if whole.weighted.is_some() { "shares of the draws that fail" } else { "rates of failure" };
     let rate = |k: u64| crate::number::significant(k as f64 / n as f64, 3);
     let mut lines = Vec::new();
     for (name, [judge, planner]) in &class.fails {
@@ -149,8 +155,8 @@ fn by_planner_class(class: &summary::PlannerClass, n: u64) -> Option<String> {
     let what = if lines.is_empty() { "no rate".to_owned() } else { lines.join("; ") };
     Some(format!(
         "The planner's own class of an encounter is not the judge's in {} of {} (column \
-         fails_by_planner_class); the judge's decides. Under the planner's, the rates of failure \
-         would be: {what}.",
+         fails_by_planner_class); the judge's decides. Under the planner's, the {rates} would be: \
+         {what}.",
         count(class.disagree),
         encounters(class.stated),
     ))

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::binomial::{clopper_pearson_lower, clopper_pearson_upper};
 use crate::eprocess::Stakes;
 use crate::error::{StatsError, check_open, check_unit};
-use crate::math::{bisect, exp, ln, log1p, real};
+use crate::math::{exp, ln, log1p, real, root};
 use crate::special::normal_quantile;
 use crate::weighted::check_weights;
 use crate::{Estimate, Method};
@@ -270,15 +270,15 @@ pub fn betting_ratio_upper(
     check_open("weight_max", weight_max, 0.0, f64::INFINITY)?;
     check_weights(events.iter().map(|event| event.weight), "weight", weight_max)?;
     let ln_level = -ln(alpha);
-    let reached = |ratio: f64| ln_e_ratio(events, weight_max, ratio, -1.0) >= ln_level;
-    let mut high = 1.0;
-    while !reached(high) {
-        high *= 2.0;
+    let over = |ratio: f64| ln_e_ratio(events, weight_max, ratio, -1.0) - ln_level;
+    let (mut low, mut high) = (0.0, 1.0);
+    while over(high) < 0.0 {
+        (low, high) = (high, 2.0 * high);
         if high > 1e12 {
             return Err(no_nominal_event());
         }
     }
-    Ok(bisect(0.0, high, reached).1)
+    Ok(root(low, high, over).1)
 }
 
 /// The one-sided lower bound of [`betting_ratio`] at confidence 1 - `alpha`; 0 where nothing is
@@ -295,16 +295,16 @@ pub fn betting_ratio_lower(
     check_open("weight_max", weight_max, 0.0, f64::INFINITY)?;
     check_weights(events.iter().map(|event| event.weight), "weight", weight_max)?;
     let ln_level = -ln(alpha);
-    let kept = |ratio: f64| ln_e_ratio(events, weight_max, ratio, ratio.max(1.0)) < ln_level;
-    if kept(0.0) {
+    let short = |ratio: f64| ln_level - ln_e_ratio(events, weight_max, ratio, ratio.max(1.0));
+    if short(0.0) >= 0.0 {
         return Ok(0.0);
     }
     // with R each bet shrinks to nothing, so some R is kept
-    let mut high = 1.0;
-    while !kept(high) {
-        high *= 2.0;
+    let (mut low, mut high) = (0.0, 1.0);
+    while short(high) < 0.0 {
+        (low, high) = (high, 2.0 * high);
     }
-    Ok(bisect(0.0, high, kept).0)
+    Ok(root(low, high, short).0)
 }
 
 /// ln E_R with stakes on X_i / `scale`: a negative scale of -1 bets that RR is below R, a
