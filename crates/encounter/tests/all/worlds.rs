@@ -41,6 +41,28 @@ fn quick_is_the_world_of_the_open_sea() {
     assert_eq!(quick, open);
 }
 
+/// `traffic` is the open sea with another law of who is met: every miss distance within a kilometre,
+/// at the encounter rate.
+#[test]
+fn the_traffic_is_that_of_the_open_sea() {
+    let (mut traffic, mut open) = (campaign("traffic"), campaign("open-sea"));
+    for file in [&mut traffic, &mut open] {
+        for own in ["name", "title", "encounters_per_stratum"] {
+            assert!(file.remove(own).is_some(), "{own}");
+        }
+        let model = file["model"].as_table_mut().unwrap();
+        assert!(model.remove("stratum").is_some());
+        assert!(model["geometry"].as_table_mut().unwrap().remove("miss_m").is_some());
+    }
+    assert!(traffic["model"].as_table_mut().unwrap().remove("encounter_rate").is_some());
+    assert_eq!(traffic, open);
+    let generator = generator("traffic");
+    let weights: Vec<f64> = (0..200).map(|j| draw(&generator, 0, j).weight).collect();
+    assert!(weights.iter().all(|&w| w > 0.0 && w <= generator.weight_max(0)));
+    let mean = weights.iter().sum::<f64>() / 200.0;
+    assert!((mean - 1.0).abs() < 0.25 && generator.weight_max(0) < 4.0, "{mean}");
+}
+
 #[test]
 fn fog_restricts_visibility_and_the_harbour_has_land() {
     let fog = draw(&generator("fog"), 0, 0);
