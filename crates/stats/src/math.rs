@@ -125,7 +125,8 @@ mod tests {
     #[test]
     fn root_encloses_what_bisect_finds_in_fewer_steps() {
         // the last one is a jump, for which halving is the best there is
-        let functions: [(f64, fn(f64) -> f64, i32); 4] = [
+        type Case = (f64, fn(f64) -> f64, i32);
+        let functions: [Case; 4] = [
             (2.0, |x| x * x - 2.0, 15),
             (64.0, |x| x - 1e-6, 15),
             (1.0, |x| ln(x.max(1e-300)) + 11.0, 30),
