@@ -13,7 +13,7 @@ use crate::{ReportError, case_figure, figure_cpa, figure_map, figure_polar, figu
 use crate::{figure_times, font, player};
 use record::{Check, DistanceKind, Status};
 use serde::Serialize;
-use summary::{AvoidableRates, BoundedRate, StratumSummary, Tally};
+use summary::{BoundedRate, StratumSummary, Tally};
 
 /// All figures of a report, those of the cases last.
 pub(crate) fn figures(input: &ReportInput) -> Vec<Figure> {
@@ -74,7 +74,7 @@ pub(crate) fn page(input: &ReportInput, figures: &[Figure]) -> Result<String, Re
         classes: classes(&whole.tally, whole.summary.weighted.is_some()),
         avoiding: avoiding(&whole.summary),
         outcomes: outcomes(input, &whole),
-        unavoidable: unavoidable(&whole),
+        unavoidable: wording::unavoidable(&whole),
         cases: input.cases.iter().zip(cases).map(|(c, f)| case_view(input, c, f)).collect(),
         resolved: &card.resolved,
     };
@@ -350,30 +350,6 @@ fn onset(tally: &Tally) -> String {
         count(nominal),
         count(actual)
     )
-}
-
-fn unavoidable(whole: &Group) -> Option<String> {
-    let asked = whole.tally.avoidable + whole.tally.unavoidable;
-    AvoidableRates::new(&whole.tally).map(|mut without| {
-        let weighted = whole.summary.weighted.as_ref().and_then(|w| w.without_unavoidable);
-        if let Some(weighted) = weighted {
-            weighted::take(&mut without.collision, &weighted.collision);
-            weighted::take(&mut without.safety_radius, &weighted.safety_radius);
-        }
-        let line = |rate: &BoundedRate| format!("{} of {} ({})", rate.k, rate.n, bounds(rate));
-        format!(
-            "{} of {} runs ended in a contact that own ship could not have avoided: hard over by \
-             90 or 180 degrees to either side, full astern, both, or nothing, begun at any beat \
-             from her first track of the ship that she hit on, the others being as they were, \
-             clears not all. They stay in every rate. Without them: collisions {}, safety radius \
-             broken {}; only runs that failed can be left out so, and these numbers are no rates \
-             of a population.",
-            count(whole.tally.unavoidable),
-            count(asked),
-            line(&without.collision),
-            line(&without.safety_radius),
-        )
-    })
 }
 
 fn case_view(input: &ReportInput, case: &Case, figure: &Figure) -> CaseView {

@@ -5,15 +5,19 @@ use crate::number::{NONE, count, per_cent, per_cent_or_none, significant};
 use record::{Check, Status};
 use summary::{BoundedRate, PairedRates, StratumSummary, WeightedRate, WeightedRatio};
 
-/// Under the table of strata, and under the figure of rates.
-pub(crate) const NOTE: &str = "Small: two-sided 95 % betting bounds of the weighted rate, for each line by itself; counts are \
-     of the draws. Runs of unknown outcome stay in n and count as failures in the upper bound. –: \
-     the quantile falls among runs that never acted, or whose distance is unknown; reaction times \
-     and distances are of the draws.";
+/// Under the table of strata.
+pub(crate) const NOTE: &str = concat!(
+    "Small: two-sided 95 % betting bounds of the weighted rate, for each line by itself; counts ",
+    "are of the draws. Runs of unknown outcome stay in n and count as failures in the upper ",
+    "bound. –: the quantile falls among runs that never acted, or whose distance is unknown; ",
+    "reaction times and distances are of the draws."
+);
 /// The same without weights.
-pub(crate) const NOTE_PLAIN: &str = "Small: exact two-sided 95 % bounds (Clopper-Pearson) of each line by itself. Runs of unknown \
-     outcome stay in n and count as failures in the upper bound. –: the quantile falls among runs \
-     that never acted, or whose distance is unknown.";
+pub(crate) const NOTE_PLAIN: &str = concat!(
+    "Small: exact two-sided 95 % bounds (Clopper-Pearson) of each line by itself. Runs of unknown ",
+    "outcome stay in n and count as failures in the upper bound. –: the quantile falls among ",
+    "runs that never acted, or whose distance is unknown."
+);
 
 /// The same summary, its headline rates, ratios and bounds those of the population that the weights
 /// stand for; unchanged where there are none. Counts stay those of the draws.

@@ -3,9 +3,11 @@
 use crate::group::Group;
 use crate::input::ReportInput;
 use crate::number::{count, per_cent};
+use crate::page::bounds;
+use crate::weighted;
 use record::{Check, Status};
 use serde::Serialize;
-use summary::StratumSummary;
+use summary::{AvoidableRates, BoundedRate, StratumSummary};
 
 /// The line of a page that stands beside others; a page alone, as in a pack, is without it.
 pub const BESIDE: &str = concat!(
@@ -160,6 +162,31 @@ fn by_planner_class(class: &summary::PlannerClass, whole: &StratumSummary) -> Op
         count(class.disagree),
         encounters(class.stated),
     ))
+}
+
+/// What is known of encounters that no manoeuvre of own ship clears, where they were looked for.
+pub(crate) fn unavoidable(whole: &Group) -> Option<String> {
+    let asked = whole.tally.avoidable + whole.tally.unavoidable;
+    AvoidableRates::new(&whole.tally).map(|mut without| {
+        let weighted = whole.summary.weighted.as_ref().and_then(|w| w.without_unavoidable);
+        if let Some(weighted) = weighted {
+            weighted::take(&mut without.collision, &weighted.collision);
+            weighted::take(&mut without.safety_radius, &weighted.safety_radius);
+        }
+        let line = |rate: &BoundedRate| format!("{} of {} ({})", rate.k, rate.n, bounds(rate));
+        format!(
+            "{} of {} runs ended in a contact that own ship could not have avoided: hard over by \
+             90 or 180 degrees to either side, full astern, both, or nothing, begun at any beat \
+             from her first track of the ship that she hit on, the others being as they were, \
+             clears not all. They stay in every rate. Without them: collisions {}, safety radius \
+             broken {}; only runs that failed can be left out so, and these numbers are no rates \
+             of a population.",
+            count(whole.tally.unavoidable),
+            count(asked),
+            line(&without.collision),
+            line(&without.safety_radius),
+        )
+    })
 }
 
 /// Which encounters the judges disagree on, the first few of them.

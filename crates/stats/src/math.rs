@@ -75,8 +75,8 @@ pub(crate) fn bisect(
 }
 
 /// The ends of a bracket, at most 1e-12 of `high` apart, in which `f` rises from below zero to zero
-/// or above, found by the Illinois rule: a fraction of the evaluations of [`bisect`], for an `f` that
-/// costs something. `f(low) < 0 <= f(high)`.
+/// or above, found by the Illinois rule: a fraction of the evaluations of [`bisect`], for an `f`
+/// that costs something. `f(low) < 0 <= f(high)`.
 pub(crate) fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     let (mut at_low, mut at_high) = (f(low), f(high));
     let mut rose_last = None;

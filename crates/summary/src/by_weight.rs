@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 
 /// Bits of the fraction of a weight that its bin keeps: 256 bins in each doubling, so a bin is at
 /// most 1/256 of its weight wide and its middle at most 1/512 (0.2 %) from any weight in it. A rate
-/// made of the middles is that close to the rate of the weights, and a bound made of the ends holds.
+/// made of the middles is that close to the rate of the weights, and a bound made of the ends
+/// holds.
 const FRACTION_BITS: u32 = 8;
 const DROPPED_BITS: u32 = f64::MANTISSA_DIGITS - 1 - FRACTION_BITS;
 

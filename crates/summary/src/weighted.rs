@@ -1,7 +1,7 @@
 //! Rates of the population that weighted encounters stand for, with bounds that hold for weights.
 //!
 //! The weights have mean 1 and are at most `weight_max`, which is known before the run, so
-//! X_i = w_i y_i / weight_max lies in [0, 1] and its mean is the rate over `weight_max`: the betting
+//! X_i = w_i y_i / weight_max lies in [0, 1] and its mean is the rate over `weight_max`: betting
 //! bounds of such a mean are claims (statistics specification, sections 2, 3 and 4.4). Weights are
 //! kept in bins: a rate takes their middles, a bound the end that cannot make it too narrow.
 

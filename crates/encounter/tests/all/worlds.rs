@@ -41,8 +41,8 @@ fn quick_is_the_world_of_the_open_sea() {
     assert_eq!(quick, open);
 }
 
-/// `traffic` is the open sea with another law of who is met: every miss distance within a kilometre,
-/// at the encounter rate.
+/// `traffic` is the open sea with another law of who is met: every miss distance within a
+/// kilometre, at the encounter rate.
 #[test]
 fn the_traffic_is_that_of_the_open_sea() {
     let (mut traffic, mut open) = (campaign("traffic"), campaign("open-sea"));
