@@ -30,6 +30,15 @@ fn a_sweep_shows_how_the_classes_move() {
     run_ok(folder.path(), &format!("{CAMPAIGN} --encounters 40 --out first"));
     let said = run_ok(folder.path(), "judge first --sweep head_on_half_angle_deg=5,13,22.5");
     assert!(said.contains("head_on") && said.contains("22.5"), "{said}");
+    // every share stands under what it is a share of
+    let line = |name: &str| said.lines().find(|line| line.starts_with(name)).unwrap();
+    let numbers = |name: &str| -> Vec<u64> {
+        let words = line(name)[name.len()..].split_whitespace();
+        words.map(|word| word.parse().unwrap()).collect()
+    };
+    assert_eq!(numbers("runs"), [360; 4]);
+    let applied = numbers("r14 applied to");
+    assert!(applied[1] < applied[2] && applied[2] < applied[3], "{said}");
     let path = "first/judged-usv-oe2023-v1/sweep-head_on_half_angle_deg.json";
     let sweep = json(folder.path().join(path));
     let points = sweep["points"].as_array().unwrap();

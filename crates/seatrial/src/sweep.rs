@@ -123,7 +123,8 @@ impl Sweep {
         text
     }
 
-    /// Shares of all strata together, a column for each value; rules never put to the test last.
+    /// Shares of all strata together, a column for each value, each under the number of runs that it
+    /// is a share of; rules never put to the test last.
     pub(crate) fn table(&self) -> String {
         const NAME: usize = 38;
         let mut text = format!("{:NAME$}", self.key);
@@ -132,15 +133,17 @@ impl Sweep {
             write!(text, " {head:>12}").expect("writing to a string");
         }
         text.push('\n');
-        let mut line = |name: &str, cell: &dyn Fn(&Point) -> Option<f64>| {
+        let mut line = |name: &str, cell: &dyn Fn(&Point) -> String| {
             write!(text, "{name:NAME$}").expect("writing to a string");
             for point in &self.points {
-                let shown = cell(point).map_or("-".to_owned(), |v| format!("{:.2} %", 100.0 * v));
-                write!(text, " {shown:>12}").expect("writing to a string");
+                write!(text, " {:>12}", cell(point)).expect("writing to a string");
             }
             text.push('\n');
         };
-        let share = |k: u64, n: u64| (n > 0).then(|| k as f64 / n as f64);
+        let percent =
+            |rate: Option<f64>| rate.map_or("-".to_owned(), |v| format!("{:.2} %", 100.0 * v));
+        let share = |k: u64, n: u64| percent((n > 0).then(|| k as f64 / n as f64));
+        line("runs", &|p| p.all.n.to_string());
         line("class differs", &|p| share(p.class_changed, p.all.n));
         for class in EncounterClass::ALL {
             let name = format!("class {}", class.name());
@@ -148,8 +151,13 @@ impl Sweep {
         }
         let tested = |check: &Check| self.points.iter().any(|p| p.all.checks[check].applied > 0);
         for check in Check::ALL.into_iter().filter(tested) {
-            line(&format!("{} fail", check.name()), &|p| p.all.checks[&check].fail.rate);
-            line(&format!("{} warn", check.name()), &|p| p.all.checks[&check].warn.rate);
+            line(&format!("{} applied to", check.name()), &|p| {
+                p.all.checks[&check].applied.to_string()
+            });
+            line("  fail", &|p| percent(p.all.checks[&check].fail.rate));
+            if self.points.iter().any(|p| p.all.checks[&check].warn.k > 0) {
+                line("  warn", &|p| percent(p.all.checks[&check].warn.rate));
+            }
         }
         let untested: Vec<&str> =
             Check::ALL.into_iter().filter(|c| !tested(c)).map(Check::name).collect();
