@@ -123,8 +123,8 @@ impl Sweep {
         text
     }
 
-    /// Shares of all strata together, a column for each value, each under the number of runs that it
-    /// is a share of; rules never put to the test last.
+    /// Shares of all strata together, a column for each value, each under the number of runs that
+    /// it is a share of; rules never put to the test last.
     pub(crate) fn table(&self) -> String {
         const NAME: usize = 38;
         let mut text = format!("{:NAME$}", self.key);
