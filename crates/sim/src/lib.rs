@@ -19,6 +19,7 @@ pub mod interval;
 pub mod nominal;
 mod passage;
 pub mod peer;
+mod pilot;
 pub mod pose;
 pub mod recorder;
 pub mod sensing;

@@ -1,10 +1,10 @@
-//! Samples of a ship, one a beat.
+//! Samples of a ship, one a beat, and the trace of a run that has none.
 
 use crate::pose::Pose;
 use crate::ship::Ship;
 use crate::vessel::State;
 use geom::Vec2;
-use record::{ShipTrack, trace};
+use record::{Encounter, Outcome, PlannerEvents, ShipTrack, Trace, trace};
 
 /// An empty track of a ship with room for `samples`.
 pub fn track_of(ship: &Ship, samples: usize) -> ShipTrack {
@@ -38,5 +38,44 @@ pub fn pose(track: &ShipTrack, k: usize) -> Pose {
         velocity_mps: track.velocity_mps(k),
         heading: geom::unit(track.psi_rad[k]),
         yaw_rate_radps: track.yaw_rate_radps[k],
+    }
+}
+
+/// The trace of an encounter that was not run.
+pub(crate) fn not_run(encounter: &Encounter) -> Trace {
+    let empty = |hull| {
+        let ship = trace::Ship {
+            hull,
+            yaw_rate_radps_max: 0.0,
+            speed_mps_max: 0.0,
+            steerage_mps: None,
+            stopping: None,
+        };
+        ShipTrack::with_capacity(ship, 0)
+    };
+    Trace {
+        id: encounter.id.clone(),
+        outcome: Outcome::Invalid,
+        end_s: 0.0,
+        sample_s: encounter.run.beat_s,
+        safety_radius_m: encounter.safety_radius_m,
+        distance: encounter.distance,
+        visibility: encounter.visibility,
+        route: encounter.own.route.clone(),
+        cruise_mps: encounter.own.cruise_mps,
+        own: empty(encounter.own.hull),
+        targets: Vec::new(),
+        pairs: Vec::new(),
+        hazard_m_min: None,
+        orders: Vec::new(),
+        alerts: Vec::new(),
+        events: PlannerEvents::default(),
+        contact: None,
+        planner_sector: None,
+        planner_detail: None,
+        goal_reached: false,
+        nominal: None,
+        last_minute: None,
+        unavoidable: None,
     }
 }

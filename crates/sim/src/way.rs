@@ -16,8 +16,8 @@ const WAY_S_MAX: f64 = 1800.0;
 const HEADING_REACHED_RAD: f64 = deg(0.2);
 /// ... and this yaw rate, rad/s.
 const STEADY_RADPS: f64 = deg(0.005);
-/// A speed is reached within this, m/s. What is left of it is lost from the way: with time constants
-/// of half a minute, some centimetres.
+/// A speed is reached within this, m/s. What is left of it is lost from the way: with time
+/// constants of half a minute, some centimetres.
 const SPEED_REACHED_MPS: f64 = 0.001;
 
 /// To which side a ship turns.

@@ -11,20 +11,18 @@ use crate::hazard::{Hazards, Touch};
 use crate::intent::Script;
 use crate::interval::{Hulls, Interval};
 use crate::peer::{MakePeer, Peer};
+use crate::pilot::{Pilot, mission};
 use crate::pose::Pose;
 use crate::recorder;
 use crate::sensing::{Sensors, own_state};
 use crate::ship::Ship;
 use crate::vessel::{Helm, Model};
 use crate::weather::Environment;
-use planner_api::{
-    CommandError, FailureKind, Mission, Planner, PlannerFailure, Situation, TargetTrack,
-};
+use planner_api::{CommandError, Planner, Situation, TargetTrack};
 use record::{
-    Alert, Contact, ContactWith, Encounter, Intent, Order, Outcome, Pair, PlannerEvents, Purpose,
-    ShipTrack, Streams, Trace, Visibility,
+    Alert, Contact, ContactWith, Encounter, Intent, Order, Outcome, Pair, PlannerEvents, ShipTrack,
+    Trace, Visibility,
 };
-use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -61,11 +59,11 @@ pub fn run_among(
     beat: &AtomicU64,
 ) -> Trace {
     if check(encounter).is_err() {
-        return invalid(encounter);
+        return recorder::not_run(encounter);
     }
     let mut world = World::new(encounter);
     if !world.board_peers(peers) {
-        return invalid(encounter);
+        return recorder::not_run(encounter);
     }
     let mission = mission(encounter, &world.own);
     let mut pilot = Pilot { planner, beat, mission, last_words: None };
@@ -100,60 +98,6 @@ struct World<'a> {
     orders: Vec<Order>,
     alerts: Vec<Alert>,
     contact: Option<Contact>,
-}
-
-/// The planner behind its three hazards: it may panic, it may not return, it may order nonsense.
-struct Pilot<'a> {
-    planner: &'a mut dyn Planner,
-    beat: &'a AtomicU64,
-    mission: Mission,
-    /// What it said of its own failure.
-    last_words: Option<String>,
-}
-
-/// Longest last words of a planner that are kept, bytes.
-const LAST_WORDS_MAX: usize = 2000;
-
-impl Pilot<'_> {
-    fn call<T>(&mut self, f: impl FnOnce(&mut dyn Planner, &Mission) -> T) -> Result<T, Outcome> {
-        self.beat.fetch_add(1, Ordering::Relaxed);
-        let answer = catch_unwind(AssertUnwindSafe(|| f(self.planner, &self.mission)));
-        self.beat.fetch_add(1, Ordering::Relaxed);
-        answer.map_err(|payload| {
-            let (outcome, words) = end_of_planner(payload.as_ref());
-            self.last_words =
-                words.map(|words| words[..words.floor_char_boundary(LAST_WORDS_MAX)].to_owned());
-            outcome
-        })
-    }
-
-    fn events(&mut self) -> PlannerEvents {
-        let events = self.call(|planner, _| planner.events()).unwrap_or_default();
-        PlannerEvents {
-            inner_loop_cap: events.inner_loop_cap,
-            limited: events.limited,
-            inside_called_safe: events.inside_called_safe,
-            class_changes: events.class_changes,
-            receding_flagged: events.receding_flagged,
-            passes: events.passes,
-        }
-    }
-}
-
-/// How an unwinding ends a run, and what the planner said.
-fn end_of_planner(payload: &(dyn Any + Send)) -> (Outcome, Option<&str>) {
-    let Some(failure) = payload.downcast_ref::<PlannerFailure>() else {
-        let text = payload.downcast_ref::<String>().map(String::as_str);
-        let words = text.or(payload.downcast_ref::<&str>().copied());
-        return (Outcome::PlannerPanicked, words);
-    };
-    let outcome = match failure.kind {
-        FailureKind::Hung => Outcome::PlannerHung,
-        FailureKind::Crashed => Outcome::PlannerCrashed,
-        FailureKind::Protocol => Outcome::PlannerProtocol,
-        FailureKind::NonFinite => Outcome::PlannerNonFinite,
-    };
-    (outcome, Some(failure.detail.as_str()))
 }
 
 impl<'a> World<'a> {
@@ -404,7 +348,7 @@ impl<'a> World<'a> {
             events,
             contact: self.contact,
             goal_reached: self.ending.goal_reached(),
-            ..invalid(self.encounter)
+            ..recorder::not_run(self.encounter)
         }
     }
 }
@@ -416,71 +360,5 @@ fn inertia(ship: &Ship) -> Inertia {
             Inertia { mass_kg: model.displacement_kg, yaw_kgm2: model.inertia_kgm2 }
         }
         Model::Kinematic(_) | Model::Nomoto(_) => Inertia::of_outline(&ship.outline),
-    }
-}
-
-/// What the planner is told once.
-fn mission(encounter: &Encounter, own: &Ship) -> Mission {
-    let limits = own.model.limits();
-    let mut stream = Streams::new(encounter.seed, &encounter.id).stream(Purpose::Planner, 0);
-    Mission {
-        own: planner_api::OwnShip {
-            length_m: own.outline.length_m,
-            beam_m: own.outline.beam_m,
-            speed_mps_max: limits.speed_mps_max,
-            yaw_rate_radps_max: limits.yaw_rate_radps_max,
-            acceleration_mps2_max: limits.acceleration_mps2_max,
-        },
-        route: encounter
-            .own
-            .route
-            .iter()
-            .map(|w| planner_api::Waypoint { position_m: w.position_m, speed_mps: w.speed_mps })
-            .collect(),
-        cruise_mps: encounter.own.cruise_mps,
-        safety_radius_m: encounter.safety_radius_m,
-        between_centres: encounter.distance == record::DistanceKind::Centre,
-        beat_s: encounter.run.beat_s,
-        hazards: encounter.hazards.clone(),
-        stream_seed: stream.next_u64(),
-    }
-}
-
-/// The trace of an encounter that was not run.
-fn invalid(encounter: &Encounter) -> Trace {
-    let empty = |hull| {
-        let ship = record::Ship {
-            hull,
-            yaw_rate_radps_max: 0.0,
-            speed_mps_max: 0.0,
-            steerage_mps: None,
-            stopping: None,
-        };
-        ShipTrack::with_capacity(ship, 0)
-    };
-    Trace {
-        id: encounter.id.clone(),
-        outcome: Outcome::Invalid,
-        end_s: 0.0,
-        sample_s: encounter.run.beat_s,
-        safety_radius_m: encounter.safety_radius_m,
-        distance: encounter.distance,
-        visibility: encounter.visibility,
-        route: encounter.own.route.clone(),
-        cruise_mps: encounter.own.cruise_mps,
-        own: empty(encounter.own.hull),
-        targets: Vec::new(),
-        pairs: Vec::new(),
-        hazard_m_min: None,
-        orders: Vec::new(),
-        alerts: Vec::new(),
-        events: PlannerEvents::default(),
-        contact: None,
-        planner_sector: None,
-        planner_detail: None,
-        goal_reached: false,
-        nominal: None,
-        last_minute: None,
-        unavoidable: None,
     }
 }
