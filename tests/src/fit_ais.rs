@@ -150,4 +150,12 @@ fn what_is_no_file_of_reports_is_told_with_its_place() {
     let said = run_ok(path, "fit-ais bad.csv");
     assert!(said.contains("| no time | 1 | 2 |"), "{said}");
     assert!(!path.join("reports/ais-bad/model.toml").exists());
+    // two rows that no ship can both have sent: nobody knows which is wrong, and neither is used
+    let rows =
+        ["2023-05-01 00:00:00,211000100,55.0,11.0,9", "2023-05-01 00:00:10,211000100,54,1,9"];
+    fs::write(path.join("bad.csv"), format!("time,mmsi,lat,lon,sog,cog\n{},\n", rows.join(",\n")))
+        .unwrap();
+    let said = run_ok(path, "fit-ais bad.csv --out two");
+    assert!(said.contains("| a wild position | 2 | 2 |\n"), "{said}");
+    assert!(said.contains("| ships | 0 |"), "{said}");
 }

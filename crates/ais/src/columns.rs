@@ -80,7 +80,7 @@ impl Columns {
             find(wanted).ok_or_else(|| ColumnsError::Missing {
                 what,
                 names: wanted.join(" or "),
-                there: head.to_owned(),
+                there: shown(head),
             })
         };
         let kind = find(KIND);
@@ -100,6 +100,14 @@ impl Columns {
             kind,
         })
     }
+}
+
+/// The beginning of a head: a file that holds no reports may have anything there.
+fn shown(head: &str) -> String {
+    const CHARS_MAX: usize = 300;
+    let plain = |c: char| if c.is_control() { '?' } else { c };
+    let shown: String = head.chars().take(CHARS_MAX).map(plain).collect();
+    if head.chars().nth(CHARS_MAX).is_some() { format!("{shown} ...") } else { shown }
 }
 
 /// A name without case, spaces, underscores and units.
@@ -158,5 +166,7 @@ mod tests {
             "line 1 has no column for the course (cog); it has Time,MMSI,Lat,Lon,SOG"
         );
         assert_eq!(Columns::of("").unwrap_err(), ColumnsError::Empty);
+        let picture = Columns::of(&"\u{1b}[2J\0".repeat(1000)).unwrap_err().to_string();
+        assert!(picture.len() < 400 && picture.ends_with("?[2J? ..."), "{picture}");
     }
 }

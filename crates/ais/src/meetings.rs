@@ -4,6 +4,7 @@
 //! a nautical mile. Ships that were together five minutes before are companions, tugs or pilots
 //! and no encounter; nor is a pair that was not heard for that long.
 
+use crate::neighbours::{Window, neighbours};
 use crate::read::{Counted, Reasons};
 use crate::tracks::Track;
 use geom::units::{NAUTICAL_MILE_M, knots};
@@ -51,7 +52,8 @@ pub const BEFORE_S: f64 = 300.0;
 /// Ships that were nearer than this then were together, metres.
 pub const TOGETHER_M: f64 = 0.5 * NAUTICAL_MILE_M;
 
-const STEP_S: f64 = 5.0;
+/// Between two looks at a pair, seconds.
+pub(crate) const STEP_S: f64 = 5.0;
 /// Over so long a course is measured, seconds.
 const SPAN_S: f64 = 30.0;
 
@@ -94,21 +96,20 @@ impl Meeting {
 /// Finds the encounters.
 pub fn meetings(tracks: &[Track]) -> Found {
     let mut found = Found { meetings: Vec::new(), near: 0, left_out: Reasons::new() };
-    for (second, b) in tracks.iter().enumerate() {
-        for (first, a) in tracks[..second].iter().enumerate() {
-            let Some(closest) = closest(a, b) else { continue };
-            found.near += 1;
-            match start(a, b, &closest) {
-                Ok(start) => found.meetings.push(Meeting {
-                    ships: [first, second],
-                    cpa_s: closest.t_s,
-                    cpa_m: closest.apart_m,
-                    start,
-                }),
-                Err(reason) => {
-                    let entry = found.left_out.entry(reason);
-                    entry.or_insert(Counted { count: 0, first_line: 0 }).count += 1;
-                }
+    for ([first, second], windows) in neighbours(tracks) {
+        let (a, b) = (&tracks[first], &tracks[second]);
+        let Some(closest) = closest(a, b, &windows) else { continue };
+        found.near += 1;
+        match start(a, b, &closest) {
+            Ok(start) => found.meetings.push(Meeting {
+                ships: [first, second],
+                cpa_s: closest.t_s,
+                cpa_m: closest.apart_m,
+                start,
+            }),
+            Err(reason) => {
+                let entry = found.left_out.entry(reason);
+                entry.or_insert(Counted { count: 0, first_line: 0 }).count += 1;
             }
         }
     }
@@ -125,25 +126,30 @@ struct Closest {
     moving: bool,
 }
 
-/// The closest point of two ships that both move at it, if it is near.
-fn closest(a: &Track, b: &Track) -> Option<Closest> {
+/// The closest point of two ships that both move at it, if it is near, within the windows of time
+/// in which they can be near at all.
+fn closest(a: &Track, b: &Track, windows: &[Window]) -> Option<Closest> {
     let span = |track: &Track| Some((track.points.first()?.t_s, track.points.last()?.t_s));
     let ((a0, a1), (b0, b1)) = (span(a)?, span(b)?);
     let (from_s, to_s) = (a0.max(b0), a1.min(b1));
     let mut best: Option<Closest> = None;
     let steps = ((to_s - from_s) / STEP_S).floor().max(-1.0) as i64;
-    for k in 0..=steps {
-        let t_s = from_s + STEP_S * k as f64;
-        let (Some(p), Some(q)) = (a.at(t_s), b.at(t_s)) else { continue };
-        // between two looks they go straight on
-        let away_m = q.position_m - p.position_m;
-        let way_m = (q.velocity_mps - p.velocity_mps) * STEP_S;
-        let (apart_m, _) = geom::segment_min_distance(away_m - way_m, away_m + way_m);
-        if apart_m <= NEAR_M && best.is_none_or(|best| apart_m < best.apart_m) {
-            let around = |t_s: f64| a.at(t_s).is_some() && b.at(t_s).is_some();
-            let inside = around(t_s - STEP_S) && around(t_s + STEP_S);
-            let moving = p.sog_mps > MOVING_MPS && q.sog_mps > MOVING_MPS;
-            best = Some(Closest { t_s, apart_m, inside, moving });
+    for window in windows {
+        // every look of the whole span that falls into the window, and no other
+        let look = |t_s: f64| ((t_s - from_s) / STEP_S).ceil() as i64;
+        for k in look(window.start_s()).max(0)..look(window.end_s()).min(steps + 1) {
+            let t_s = from_s + STEP_S * k as f64;
+            let (Some(p), Some(q)) = (a.at(t_s), b.at(t_s)) else { continue };
+            // between two looks they go straight on
+            let away_m = q.position_m - p.position_m;
+            let way_m = (q.velocity_mps - p.velocity_mps) * STEP_S;
+            let (apart_m, _) = geom::segment_min_distance(away_m - way_m, away_m + way_m);
+            if apart_m <= NEAR_M && best.is_none_or(|best| apart_m < best.apart_m) {
+                let around = |t_s: f64| a.at(t_s).is_some() && b.at(t_s).is_some();
+                let inside = around(t_s - STEP_S) && around(t_s + STEP_S);
+                let moving = p.sog_mps > MOVING_MPS && q.sog_mps > MOVING_MPS;
+                best = Some(Closest { t_s, apart_m, inside, moving });
+            }
         }
     }
     // ships that only pass a berth or an anchorage have their closest point with one at rest
@@ -175,6 +181,48 @@ fn start(a: &Track, b: &Track, closest: &Closest) -> Result<[Start; 2], &'static
 mod tests {
     use super::*;
     use crate::tracks::Point;
+    use record::{EncounterId, Purpose, Seed, Streams};
+
+    /// Windows and cells leave nothing out: the same as looking at every pair all the time.
+    #[test]
+    fn the_search_finds_what_looking_at_every_pair_finds() {
+        let mut stream =
+            Streams::new(Seed(8), &EncounterId::new("ships", 0)).stream(Purpose::Geometry, 0);
+        let mut ships = Vec::new();
+        for mmsi in 0..60 {
+            let mut within = |low, high| stream.uniform_in(low, high);
+            let from_m = Vec2::new(within(-9000.0, 9000.0), within(-9000.0, 9000.0));
+            let speed_mps = if mmsi % 7 == 0 { 0.3 } else { within(1.5, 15.0) };
+            let mut ship = ship(mmsi, from_m, angle::unit(within(-3.0, 3.0)) * speed_mps);
+            let late_s = within(0.0, 700.0);
+            ship.points.iter_mut().for_each(|point| point.t_s += late_s);
+            // some are heard badly, and one identity is two ships
+            let every = 1 + (mmsi % 4) as usize * 5;
+            ship.points = ship.points.into_iter().step_by(every).collect();
+            if mmsi == 11 {
+                let jump_m = Vec2::new(5000.0, 0.0);
+                ship.points.iter_mut().skip(30).for_each(|point| point.position_m += jump_m);
+            }
+            ships.push(ship);
+        }
+        let always: Vec<Window> = (-2..40).map(Window).collect();
+        let (mut near, mut seen) = (0, Vec::new());
+        for second in 0..ships.len() {
+            for first in 0..second {
+                if let Some(closest) = closest(&ships[first], &ships[second], &always) {
+                    near += 1;
+                    if start(&ships[first], &ships[second], &closest).is_ok() {
+                        seen.push(([first, second], closest.t_s, closest.apart_m));
+                    }
+                }
+            }
+        }
+        let found = meetings(&ships);
+        assert!(near > 40 && seen.len() > 10, "{near} {}", seen.len());
+        assert_eq!(found.near, near);
+        let found: Vec<_> = found.meetings.iter().map(|m| (m.ships, m.cpa_s, m.cpa_m)).collect();
+        assert_eq!(found, seen);
+    }
 
     /// A ship on a straight line, with a report every ten seconds for twenty minutes.
     fn ship(mmsi: u64, from_m: Vec2, velocity_mps: Vec2) -> Track {

@@ -49,6 +49,8 @@ pub type Reasons = BTreeMap<&'static str, Counted>;
 pub struct Rows {
     /// Its columns.
     pub columns: Columns,
+    /// Lines so far, the head and empty ones among them.
+    pub lines: u64,
     /// Rows, the head left out.
     pub rows: u64,
     /// Those that can be used, in their order.
@@ -64,37 +66,51 @@ pub struct Rows {
 /// Largest speed that an AIS report can say, knots; 102.3 is "not available".
 const SOG_KN_END: f64 = 102.25;
 
-/// Reads a file.
+/// Reads a file that is in memory.
 ///
 /// # Errors
 /// A column that every AIS file has is missing.
 pub fn read(text: &str) -> Result<Rows, ColumnsError> {
     let mut lines = text.lines();
-    let columns = Columns::of(lines.next().unwrap_or_default())?;
-    let mut all = Rows {
-        columns,
-        rows: 0,
-        reports: Vec::new(),
-        rejected: Reasons::new(),
-        without_course: 0,
-        without_heading: 0,
-    };
-    for (line, number) in lines.zip(2..) {
+    let mut rows = Rows::under(lines.next().unwrap_or_default())?;
+    lines.for_each(|line| rows.take(line));
+    Ok(rows)
+}
+
+impl Rows {
+    /// No rows yet, under a head.
+    ///
+    /// # Errors
+    /// A column that every AIS file has is missing.
+    pub fn under(head: &str) -> Result<Self, ColumnsError> {
+        Ok(Self {
+            columns: Columns::of(head)?,
+            lines: 1,
+            rows: 0,
+            reports: Vec::new(),
+            rejected: Reasons::new(),
+            without_course: 0,
+            without_heading: 0,
+        })
+    }
+
+    /// The next line of the file.
+    pub fn take(&mut self, line: &str) {
+        self.lines += 1;
         if line.trim().is_empty() {
-            continue;
+            return;
         }
-        all.rows += 1;
-        match report(line, number, &columns) {
+        self.rows += 1;
+        match report(line, self.lines, &self.columns) {
             Ok((report, heading_deg)) => {
-                all.without_course += u64::from(report.cog_rad.is_none());
-                let lacks = columns.heading.is_some() && heading_deg.is_none();
-                all.without_heading += u64::from(lacks);
-                all.reports.push(report);
+                self.without_course += u64::from(report.cog_rad.is_none());
+                let lacks = self.columns.heading.is_some() && heading_deg.is_none();
+                self.without_heading += u64::from(lacks);
+                self.reports.push(report);
             }
-            Err(reason) => count(&mut all.rejected, reason, number),
+            Err(reason) => count(&mut self.rejected, reason, self.lines),
         }
     }
-    Ok(all)
 }
 
 pub(crate) fn count(reasons: &mut Reasons, reason: &'static str, line: u64) {
@@ -108,14 +124,14 @@ fn report(row: &str, line: u64, columns: &Columns) -> Result<(Report, Option<f64
     if fields.len() < columns.count {
         return Err("fewer fields than columns");
     }
-    let number = |at: usize| -> Option<f64> { value(&fields[at]).filter(|v| v.is_finite()) };
+    let number = |at: usize| -> Option<f64> { value(fields[at]).filter(|v| v.is_finite()) };
     if let Some(kind) = columns.kind {
         let kind = fields[kind].trim();
         if !matches!(kind, "Class A" | "Class B") {
             return Err("sent by no ship");
         }
     }
-    let t_s = time::seconds(&fields[columns.time], columns.order).ok_or("no time")?;
+    let t_s = time::seconds(fields[columns.time], columns.order).ok_or("no time")?;
     let mmsi = fields[columns.mmsi].trim().parse::<u64>().ok().filter(|&mmsi| mmsi > 0);
     let mmsi = mmsi.ok_or("no identity")?;
     if !is_ship(mmsi) {
@@ -159,18 +175,16 @@ fn value(field: &str) -> Option<f64> {
     if field.is_empty() || field == "Unknown" { None } else { field.parse().ok() }
 }
 
-/// The fields of a line; a quoted one may hold commas.
-fn fields(line: &str) -> Vec<String> {
-    let mut all = vec![String::new()];
+/// The fields of a line without the quotes around them; a quoted one may hold commas.
+fn fields(line: &str) -> Vec<&str> {
     let mut quoted = false;
-    for c in line.trim_end_matches('\r').chars() {
-        match c {
-            '"' => quoted = !quoted,
-            ',' if !quoted => all.push(String::new()),
-            c => all.last_mut().expect("there is always a field").push(c),
-        }
-    }
-    all
+    line.trim_end_matches(['\r', '\n'])
+        .split(|c| {
+            quoted ^= c == '"';
+            c == ',' && !quoted
+        })
+        .map(|field| field.trim_matches('"'))
+        .collect()
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ pub struct Track {
     pub length_m: Option<f64>,
     /// Beam likewise.
     pub width_m: Option<f64>,
-    /// Her reports, earliest first; no two at one time.
+    /// Her reports, at least one, earliest first; no two at one time.
     pub points: Vec<Point>,
 }
 
@@ -76,7 +76,7 @@ pub fn tracks(reports: &[Report], reasons: &mut Reasons) -> Vec<Track> {
         let points = points.iter().zip(&tame).filter(|(_, tame)| **tame);
         Track { mmsi, length_m, width_m, points: points.map(|(point, _)| *point).collect() }
     });
-    tracks.collect()
+    tracks.filter(|track| !track.points.is_empty()).collect()
 }
 
 /// Counts a reason; ships come one after another, so its first line in the file is the least.
@@ -96,22 +96,35 @@ fn middle(reports: &[Report]) -> Option<Geographic> {
     Some(Geographic { lat_deg: median(|r| r.lat_deg)?, lon_deg: median(|r| r.lon_deg)? })
 }
 
-/// Which points a ship could have come to from one before or gone from to one after. A position
-/// that is far from all of them is wild.
+/// A report is looked at together with so many before it and after it: as many wild ones less one
+/// may stand in a row.
+const NEIGHBOURS: usize = 4;
+
+/// Which points are not wild. Points between which a ship could have gone belong together, directly
+/// or over others; a point by itself is wild, and so are two that a longer voyage leaves aside.
+/// More are another ship under the same identity, and stay.
 fn tame(points: &[Point]) -> Vec<bool> {
     let can = |a: &Point, b: &Point| {
         let most_m = SPEED_MPS_MAX * (b.t_s - a.t_s) + POSITION_ERROR_M;
         (b.position_m - a.position_m).norm() <= most_m
     };
-    // two on either side, so that the neighbour of a wild one is not taken for wild
-    let keep = |k: usize| {
-        let mut before = points[k.saturating_sub(2)..k].iter();
-        let mut after = points[k + 1..points.len().min(k + 3)].iter();
-        points.len() == 1
-            || before.any(|other| can(other, &points[k]))
-            || after.any(|other| can(&points[k], other))
-    };
-    (0..points.len()).map(keep).collect()
+    // the voyage of each point: the first of it, found through the earlier neighbours
+    let mut voyage: Vec<usize> = Vec::with_capacity(points.len());
+    for (k, point) in points.iter().enumerate() {
+        let near = |j: &usize| can(&points[*j], point);
+        let joined: Vec<usize> =
+            (k.saturating_sub(NEIGHBOURS)..k).filter(near).map(|j| voyage[j]).collect();
+        let first = joined.iter().copied().min().unwrap_or(k);
+        voyage.push(first);
+        if joined.iter().any(|&other| other != first) {
+            voyage.iter_mut().filter(|other| joined.contains(other)).for_each(|v| *v = first);
+        }
+    }
+    let mut sizes = vec![0_usize; points.len()];
+    voyage.iter().for_each(|&first| sizes[first] += 1);
+    let largest = sizes.iter().copied().max().unwrap_or(0);
+    let stays = |size: usize| points.len() == 1 || size > 2 || (size == 2 && largest == 2);
+    voyage.into_iter().map(|first| stays(sizes[first])).collect()
 }
 
 /// Where a ship was between two reports, and how she moved.
@@ -135,18 +148,24 @@ impl Track {
         let after = self.points.partition_point(|point| point.t_s <= t_s);
         let before = self.points.get(after.checked_sub(1)?)?;
         let after = self.points.get(after)?;
+        let velocity_mps = Self::leg_velocity_mps(before, after)?;
+        let share = (t_s - before.t_s) / (after.t_s - before.t_s);
+        Some(Fix {
+            position_m: before.position_m + (after.position_m - before.position_m) * share,
+            velocity_mps,
+            sog_mps: before.sog_mps + share * (after.sog_mps - before.sog_mps),
+        })
+    }
+
+    /// Velocity between two reports that follow one another, no faster than a ship goes: at short
+    /// intervals errors of position look like speed. `None` where nothing is said between them.
+    pub(crate) fn leg_velocity_mps(before: &Point, after: &Point) -> Option<Vec2> {
         let apart_s = after.t_s - before.t_s;
         let way_m = after.position_m - before.position_m;
         // two ships under one identity are in two places: nothing is said between them
-        if apart_s > GAP_S_MAX || way_m.norm() > SPEED_MPS_MAX * apart_s + POSITION_ERROR_M {
-            return None;
-        }
-        let share = (t_s - before.t_s) / apart_s;
-        Some(Fix {
-            position_m: before.position_m + way_m * share,
-            velocity_mps: way_m / apart_s,
-            sog_mps: before.sog_mps + share * (after.sog_mps - before.sog_mps),
-        })
+        let told =
+            apart_s <= GAP_S_MAX && way_m.norm() <= SPEED_MPS_MAX * apart_s + POSITION_ERROR_M;
+        told.then(|| way_m / apart_s.max(way_m.norm() / SPEED_MPS_MAX))
     }
 
     /// Velocity over ground over a span of time around `t_s`: smoother than between two reports.
@@ -198,6 +217,35 @@ mod tests {
         assert!((fix.velocity_mps.y - 1.113_195).abs() < 1e-4, "{:?}", fix.velocity_mps);
         assert_eq!(tracks[0].at(41.0), None);
         assert_eq!(tracks[0].at(-1.0), None);
+    }
+
+    /// Two wild positions in a row, in one place or in two, leave the report before them alone, and
+    /// go themselves; a second ship under the same identity stays.
+    #[test]
+    fn wild_positions_do_not_take_their_neighbours_along() {
+        let kept = |lon_deg: &[f64]| -> Vec<f64> {
+            let reports: Vec<Report> =
+                lon_deg.iter().zip(0..).map(|(&l, k)| report(10.0 * f64::from(k), l)).collect();
+            let tracks = tracks(&reports, &mut Reasons::new());
+            tracks.iter().flat_map(|track| track.points.iter().map(|point| point.t_s)).collect()
+        };
+        let others = [20.0, 30.0, 40.0].map(|t_s| t_s + 10.0);
+        for wild in [[55.0, 55.0], [55.0, -20.0]] {
+            let first = kept(&[1.0, wild[0], wild[1], 1.0003, 1.0004, 1.0005]);
+            assert_eq!(first, [&[0.0], &others[..]].concat(), "{wild:?}");
+            let last = kept(&[1.0, 1.0001, 1.0002, wild[0], wild[1], 1.0005]);
+            assert_eq!(last, [0.0, 10.0, 20.0, 50.0], "{wild:?}");
+        }
+        assert_eq!(kept(&[1.0, 55.0, 1.0, 55.0, 1.0, 55.0]).len(), 6, "two ships");
+        assert_eq!(kept(&[1.0, 55.0]), Vec::<f64>::new(), "nobody knows which");
+    }
+
+    /// Two reports 10 ms and 11 m apart are errors of position, not 1100 m/s.
+    #[test]
+    fn errors_of_position_are_no_speed() {
+        let tracks = tracks(&[report(0.0, 1.0), report(0.01, 1.0001)], &mut Reasons::new());
+        let fix = tracks[0].at(0.005).unwrap();
+        assert!((fix.velocity_mps.norm() - SPEED_MPS_MAX).abs() < 1e-9, "{:?}", fix.velocity_mps);
     }
 
     #[test]

@@ -9,9 +9,11 @@ use ais::meetings::Found;
 use ais::model_file::{self, Source};
 use ais::replay;
 use ais::tracks::{GAP_S_MAX, Track};
+use ais::{ColumnsError, Rows};
 use record::Seed;
 use report::{Sample, Traffic};
-use std::fs;
+use std::fs::{self, File};
+use std::io::{self, BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 
 /// The campaign whose laws are replaced.
@@ -21,19 +23,16 @@ pub(super) fn run(file: &Path, out: Option<&Path>, seed: u64) -> Result<Ended, E
     let cannot = |what: &str, path: &Path, e: &dyn std::fmt::Display| {
         Error::input(format!("cannot {what} {}: {e}", path.display()))
     };
-    let bytes = fs::read(file).map_err(|e| cannot("read", file, &e))?;
+    let (mut rows, blake3) = read(file, &cannot)?;
     let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let out = out.map_or_else(|| PathBuf::from(format!("reports/ais-{stem}")), Path::to_owned);
     let source = Source {
         name: file.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        blake3: blake3::hash(&bytes).to_hex().to_string(),
+        blake3,
         tool: format!("seatrial {}", env!("CARGO_PKG_VERSION")),
         seed,
         template: TEMPLATE.to_owned(),
     };
-    // names of ships are in any encoding, and none of them is used
-    let text = String::from_utf8_lossy(&bytes);
-    let mut rows = ais::read(&text).map_err(|e| cannot("use", file, &e))?;
     let tracks = ais::tracks(&rows.reports, &mut rows.rejected);
     let found = ais::meetings(&tracks);
     let model = document::model(&tracks, &found, Seed(seed));
@@ -62,6 +61,29 @@ pub(super) fn run(file: &Path, out: Option<&Path>, seed: u64) -> Result<Ended, E
         }
     }
     Ok(Ended::Done)
+}
+
+/// The rows of a file and its hash. A day of a country does not fit into memory as text.
+fn read(
+    file: &Path,
+    cannot: &dyn Fn(&str, &Path, &dyn std::fmt::Display) -> Error,
+) -> Result<(Rows, String), Error> {
+    let cannot_read = |e: io::Error| cannot("read", file, &e);
+    let mut bytes = BufReader::with_capacity(1 << 20, File::open(file).map_err(cannot_read)?);
+    let mut hash = blake3::Hasher::new();
+    let (mut line, mut rows) = (Vec::new(), None);
+    while bytes.read_until(b'\n', &mut line).map_err(cannot_read)? > 0 {
+        hash.update(&line);
+        // names of ships are in any encoding, and none of them is used
+        let text = String::from_utf8_lossy(&line);
+        match &mut rows {
+            None => rows = Some(Rows::under(&text).map_err(|e| cannot("use", file, &e))?),
+            Some(rows) => rows.take(&text),
+        }
+        line.clear();
+    }
+    let rows = rows.ok_or_else(|| cannot("use", file, &ColumnsError::Empty))?;
+    Ok((rows, hash.finalize().to_hex().to_string()))
 }
 
 fn picture(name: &str, tracks: &[Track], found: &Found, model: &Model) -> Traffic {
