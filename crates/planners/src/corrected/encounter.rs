@@ -125,6 +125,11 @@ impl Encounter {
         if self.sure {
             return;
         }
+        if seen.altered {
+            // what she shows from here on is her alteration, not how the two have met
+            self.sure = true;
+            return;
+        }
         let anew = Self::begin(own, seen, psi_rad, self.last, options);
         if anew.class == self.class {
             self.sure = anew.sure || self.last.t_s - self.since_s >= SURE_AFTER_S;
@@ -132,6 +137,18 @@ impl Encounter {
         }
         let course_rad = self.course_rad;
         *self = Self { course_rad, since_s: self.last.t_s, ..anew };
+    }
+
+    /// Rule 13(d): who was overtaking goes on overtaking, when her encounter opens once more.
+    pub fn keep_overtaking(&mut self, ended: &[Self]) {
+        let before = ended.iter().find(|e| e.id == self.id).map(|e| e.class);
+        let overtakes =
+            |class| matches!(class, EncounterClass::Overtaking | EncounterClass::Overtaken);
+        if let Some(class) = before.filter(|&class| overtakes(class)) {
+            self.class = class;
+            self.may_act = class == EncounterClass::Overtaking;
+            self.sure = true;
+        }
     }
 
     /// Own ship gives way or may act, and by a class that has lasted.
@@ -287,6 +304,54 @@ mod tests {
                 encounter.watch(moment(t_s, 600.0 - 10.0 * t_s, cpa_sd_m), || 80.0, &options);
             }
             assert_eq!(encounter.may_act, may_act, "{cpa_sd_m}");
+        }
+    }
+
+    /// Rule 13(d), also where the range has opened in between.
+    #[test]
+    fn an_overtaker_stays_one_and_any_other_is_looked_at_again() {
+        let ended = |class| Encounter { class, ..stand_on() };
+        let again = |before: &[Encounter]| {
+            let mut encounter = Encounter { sure: false, ..ended(EncounterClass::HeadOn) };
+            encounter.may_act = true;
+            encounter.keep_overtaking(before);
+            (encounter.class, encounter.may_act, encounter.sure)
+        };
+        let (overtaken, overtaking) = (EncounterClass::Overtaken, EncounterClass::Overtaking);
+        assert_eq!(again(&[ended(overtaken)]), (overtaken, false, true));
+        assert_eq!(again(&[ended(overtaking)]), (overtaking, true, true));
+        let looked_at = (EncounterClass::HeadOn, true, false);
+        assert_eq!(again(&[ended(EncounterClass::CrossingPort)]), looked_at);
+        assert_eq!(again(&[Encounter { id: 2, ..ended(overtaken) }]), looked_at);
+    }
+
+    /// A crossing from port that turns towards own bow is no head-on encounter.
+    #[test]
+    fn the_class_is_fixed_once_the_target_has_altered() {
+        let own = OwnState::steady(Vec2::zeros(), 0.0, 8.0);
+        let psi_rad = deg(-175.0);
+        let track = planner_api::TargetTrack {
+            id: 1,
+            position_m: Vec2::new(1000.0, -50.0),
+            velocity_mps: geom::unit(psi_rad) * 5.0,
+            cog_rad: psi_rad,
+            sog_mps: 5.0,
+            psi_rad: None,
+            length_m: None,
+            beam_m: None,
+            covariance: [[0.0; 4]; 4],
+            age_s: 60.0,
+            since_update_s: 0.0,
+        };
+        let options = CorrectedOptions::default();
+        for (altered, class) in
+            [(false, EncounterClass::HeadOn), (true, EncounterClass::CrossingPort)]
+        {
+            let (position_sd_m, velocity_sd_mps, watched_s) = (5.0, 0.5, 60.0);
+            let seen = Seen { track, position_sd_m, velocity_sd_mps, watched_s, altered };
+            let mut encounter = Encounter { sure: false, ..stand_on() };
+            encounter.class_again(&own, &seen, psi_rad, &options);
+            assert_eq!(encounter.class, class);
         }
     }
 

@@ -96,7 +96,9 @@ impl ZhuangCorrected {
         let known = self.encounters.iter().position(|e| e.id == track.id);
         let encounter = match known {
             Some(i) if now.opens && now.moment.range_m > plan_m => {
-                self.encounters.swap_remove(i);
+                let ended = self.encounters.swap_remove(i);
+                self.ended.retain(|e| e.id != ended.id);
+                self.ended.push(ended);
                 None
             }
             Some(i) => {
@@ -111,7 +113,8 @@ impl ZhuangCorrected {
             }
             None if self.is_risk(&now, fixed) && self.is_watched(seen, &now) => {
                 let psi_rad = self.heading_rad(seen);
-                let encounter = Encounter::begin(own, seen, psi_rad, last, &self.options);
+                let mut encounter = Encounter::begin(own, seen, psi_rad, last, &self.options);
+                encounter.keep_overtaking(&self.ended);
                 self.encounters.push(encounter);
                 alerts.push(alert(&encounter));
                 Some(encounter)
@@ -140,7 +143,12 @@ impl ZhuangCorrected {
     }
 
     fn is_risk(&self, now: &Now, fixed: Fixed) -> bool {
-        now.moment.range_m < self.options.risk_range_m
+        let range_m = if now.moment.cpa_sd_m > 0.0 {
+            self.options.noisy_risk_range_m
+        } else {
+            self.options.risk_range_m
+        };
+        now.moment.range_m < range_m
             && now.risk_tcpa_s <= self.options.risk_tcpa_s
             && now.risk_dcpa_m < fixed.safety_radius_m + self.options.margin_m
     }

@@ -19,6 +19,8 @@ pub struct CorrectedOptions {
     pub margin_m: f64,
     /// A target is a risk when nearer than this, metres (Hagen et al. 2023, R_2).
     pub risk_range_m: f64,
+    /// ... or nearer than this where her track is not perfect, metres: to know her takes time.
+    pub noisy_risk_range_m: f64,
     /// ... with at most this time to CPA, seconds.
     pub risk_tcpa_s: f64,
     /// Stand-on in a crossing: holds outside this range, metres (the same, R_3 = 700, and a little
@@ -60,6 +62,7 @@ impl Default for CorrectedOptions {
             alteration_deg: 35.0,
             margin_m: 60.0,
             risk_range_m: 1900.0,
+            noisy_risk_range_m: 2200.0,
             risk_tcpa_s: 600.0,
             stand_on_range_m: 690.0,
             overtaken_range_m: 390.0,
@@ -92,6 +95,7 @@ impl CorrectedOptions {
         within("alteration_deg", self.alteration_deg, 10.0, 90.0)?;
         within("margin_m", self.margin_m, 0.0, 1e5)?;
         within("risk_range_m", self.risk_range_m, 0.0, 1e6)?;
+        within("noisy_risk_range_m", self.noisy_risk_range_m, 0.0, 1e6)?;
         within("risk_tcpa_s", self.risk_tcpa_s, 0.0, 1e6)?;
         within("stand_on_range_m", self.stand_on_range_m, 0.0, 1e6)?;
         within("overtaken_range_m", self.overtaken_range_m, 0.0, 1e6)?;

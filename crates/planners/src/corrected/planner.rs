@@ -40,6 +40,8 @@ pub struct ZhuangCorrected {
     ordered_mps: Option<Vec2>,
     pub(super) seen: Vec<Seen>,
     pub(super) encounters: Vec<Encounter>,
+    /// Encounters that were closed, the last of each track.
+    pub(super) ended: Vec<Encounter>,
     pub(super) targets: Vec<Target>,
     pub(super) manoeuvre: Option<Manoeuvre>,
     /// A manoeuvre for the present encounters has ended.
@@ -81,6 +83,7 @@ impl ZhuangCorrected {
             ordered_mps: None,
             seen: Vec::new(),
             encounters: Vec::new(),
+            ended: Vec::new(),
             targets: Vec::new(),
             manoeuvre: None,
             returned: false,
@@ -202,6 +205,7 @@ impl Planner for ZhuangCorrected {
         self.motion.clear();
         self.ordered_mps = None;
         self.encounters.clear();
+        self.ended.clear();
         self.manoeuvre = None;
         self.returned = false;
         self.events = PlannerEvents::default();

@@ -32,6 +32,7 @@ struct History {
     places: VecDeque<(f64, Vec2)>,
     shown_m: Vec2,
     shown_s: f64,
+    altered: bool,
 }
 
 /// A target with what is known of how well she is known.
@@ -45,6 +46,8 @@ pub struct Seen {
     pub velocity_sd_mps: f64,
     /// How long she has been watched, seconds; infinite when perfect.
     pub watched_s: f64,
+    /// She has been seen to alter.
+    pub altered: bool,
 }
 
 impl Seen {
@@ -76,7 +79,13 @@ impl Lookout {
         let velocity_sd_mps = (0.5 * (track.covariance[2][2] + track.covariance[3][3])).sqrt();
         if position_sd_m <= 0.0 && velocity_sd_mps <= 0.0 {
             let watched_s = f64::INFINITY;
-            return Seen { track: *track, position_sd_m: 0.0, velocity_sd_mps: 0.0, watched_s };
+            return Seen {
+                track: *track,
+                position_sd_m: 0.0,
+                velocity_sd_mps: 0.0,
+                watched_s,
+                altered: false,
+            };
         }
         let history = self.of(t_s, track);
         let frozen_s = history.note(t_s, track);
@@ -88,11 +97,13 @@ impl Lookout {
             position_sd_m,
             velocity_sd_mps,
             watched_s,
+            altered: history.altered,
         };
         let Some(line) = history.line(t_s) else { return as_shown };
         if altered(track, line.velocity_mps) {
             history.forget_until(t_s - AFTER_ALTERING_S);
-            return as_shown;
+            history.altered = true;
+            return Seen { altered: true, ..as_shown };
         }
         let share = CORRELATION_S / line.length_s;
         let sog_mps = line.velocity_mps.norm();
@@ -109,6 +120,7 @@ impl Lookout {
             velocity_sd_mps: velocity_sd_mps
                 .min(position_sd_m * (12.0 * share).sqrt() / line.length_s),
             watched_s,
+            altered: history.altered,
         }
     }
 
@@ -121,6 +133,7 @@ impl Lookout {
                 places: VecDeque::new(),
                 shown_m: Vec2::new(f64::NAN, f64::NAN),
                 shown_s: t_s,
+                altered: false,
             });
             self.0.len() - 1
         });
@@ -259,7 +272,7 @@ mod tests {
         for beat in 0..4 {
             let seen = lookout
                 .see(60.0 + f64::from(beat), &track(at_m + turned * f64::from(beat), turned));
-            assert_eq!(seen.track.velocity_mps, turned, "{beat}");
+            assert_eq!((seen.track.velocity_mps, seen.altered), (turned, true), "{beat}");
         }
     }
 
