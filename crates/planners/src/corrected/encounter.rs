@@ -1,7 +1,7 @@
 //! What is remembered of each target: its class, own ship's duty, and whether she may act.
 
 use super::options::CorrectedOptions;
-use super::steady::Seen;
+use super::steady::{Alteration, Seen};
 use geom::{
     EncounterClass, HeadOnSector, Relative, Vec2, class::OVERTAKING_SECTOR_RAD, classify,
     units::deg,
@@ -125,10 +125,14 @@ impl Encounter {
         if self.sure {
             return;
         }
-        if seen.altered {
-            // what she shows from here on is her alteration, not how the two have met
-            self.sure = true;
-            return;
+        // what she shows from an alteration on is not how the two have met
+        match seen.altered {
+            Alteration::Perhaps => return,
+            Alteration::Seen(t_s) if t_s >= self.since_s => {
+                self.sure = true;
+                return;
+            }
+            _ => {}
         }
         let anew = Self::begin(own, seen, psi_rad, self.last, options);
         if anew.class == self.class {
@@ -344,14 +348,18 @@ mod tests {
             since_update_s: 0.0,
         };
         let options = CorrectedOptions::default();
-        for (altered, class) in
-            [(false, EncounterClass::HeadOn), (true, EncounterClass::CrossingPort)]
-        {
+        for (altered, class, sure) in [
+            (Alteration::None, EncounterClass::HeadOn, false),
+            (Alteration::Perhaps, EncounterClass::CrossingPort, false),
+            (Alteration::Seen(5.0), EncounterClass::CrossingPort, true),
+            // before they met: it says nothing
+            (Alteration::Seen(-5.0), EncounterClass::HeadOn, false),
+        ] {
             let (position_sd_m, velocity_sd_mps, watched_s) = (5.0, 0.5, 60.0);
             let seen = Seen { track, position_sd_m, velocity_sd_mps, watched_s, altered };
             let mut encounter = Encounter { sure: false, ..stand_on() };
             encounter.class_again(&own, &seen, psi_rad, &options);
-            assert_eq!(encounter.class, class);
+            assert_eq!((encounter.class, encounter.sure), (class, sure), "{altered:?}");
         }
     }
 

@@ -5,7 +5,7 @@
 //! her course can be watched for longer. The line holds until the track's own velocity says plainly
 //! that she has altered. A perfect track is taken as it is.
 
-use geom::{Vec2, angle};
+use geom::{Vec2, angle, units::deg, wrap};
 use planner_api::TargetTrack;
 use std::collections::VecDeque;
 
@@ -22,6 +22,8 @@ const FRESH_S: f64 = 3.0;
 /// Squared Mahalanobis distance between the velocities of track and line beyond which she has
 /// altered: one in three thousand, if nothing was correlated.
 const ALTERED: f64 = 16.0;
+/// A change of course between two lines that is no alarm of the tracker's alone, radians.
+const ALTERED_RAD: f64 = deg(10.0);
 
 /// The history of one track.
 #[derive(Clone, Debug)]
@@ -32,7 +34,20 @@ struct History {
     places: VecDeque<(f64, Vec2)>,
     shown_m: Vec2,
     shown_s: f64,
-    altered: bool,
+    /// What she did when she was first seen to alter, and when that was: (seconds, m/s).
+    before: Option<(f64, Vec2)>,
+    altered: Alteration,
+}
+
+/// Whether a target has altered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Alteration {
+    /// She goes on as she did.
+    None,
+    /// The tracker says so, and a new line does not yet.
+    Perhaps,
+    /// She has, and it was first seen at this time, seconds.
+    Seen(f64),
 }
 
 /// A target with what is known of how well she is known.
@@ -46,8 +61,8 @@ pub struct Seen {
     pub velocity_sd_mps: f64,
     /// How long she has been watched, seconds; infinite when perfect.
     pub watched_s: f64,
-    /// She has been seen to alter.
-    pub altered: bool,
+    /// Whether she has altered.
+    pub altered: Alteration,
 }
 
 impl Seen {
@@ -84,7 +99,7 @@ impl Lookout {
                 position_sd_m: 0.0,
                 velocity_sd_mps: 0.0,
                 watched_s,
-                altered: false,
+                altered: Alteration::None,
             };
         }
         let history = self.of(t_s, track);
@@ -102,9 +117,13 @@ impl Lookout {
         let Some(line) = history.line(t_s) else { return as_shown };
         if altered(track, line.velocity_mps) {
             history.forget_until(t_s - AFTER_ALTERING_S);
-            history.altered = true;
-            return Seen { altered: true, ..as_shown };
+            history.before.get_or_insert((t_s, line.velocity_mps));
+            if history.altered == Alteration::None {
+                history.altered = Alteration::Perhaps;
+            }
+            return Seen { altered: history.altered, ..as_shown };
         }
+        history.confirm(line.velocity_mps);
         let share = CORRELATION_S / line.length_s;
         let sog_mps = line.velocity_mps.norm();
         Seen {
@@ -133,7 +152,8 @@ impl Lookout {
                 places: VecDeque::new(),
                 shown_m: Vec2::new(f64::NAN, f64::NAN),
                 shown_s: t_s,
-                altered: false,
+                before: None,
+                altered: Alteration::None,
             });
             self.0.len() - 1
         });
@@ -160,6 +180,19 @@ impl History {
         }
         self.forget_until(t_s - HISTORY_S);
         0.0
+    }
+
+    /// A tracker's alarm may be false; the line after it tells.
+    fn confirm(&mut self, now_mps: Vec2) {
+        let (Some((t_s, before_mps)), Alteration::Perhaps) = (self.before, self.altered) else {
+            return;
+        };
+        let turned_rad = wrap(angle::direction(now_mps) - angle::direction(before_mps)).abs();
+        if turned_rad >= ALTERED_RAD {
+            self.altered = Alteration::Seen(t_s);
+        } else {
+            (self.before, self.altered) = (None, Alteration::None);
+        }
     }
 
     fn forget_until(&mut self, t_s: f64) {
@@ -272,7 +305,31 @@ mod tests {
         for beat in 0..4 {
             let seen = lookout
                 .see(60.0 + f64::from(beat), &track(at_m + turned * f64::from(beat), turned));
-            assert_eq!((seen.track.velocity_mps, seen.altered), (turned, true), "{beat}");
+            assert_eq!(
+                (seen.track.velocity_mps, seen.altered),
+                (turned, Alteration::Perhaps),
+                "{beat}"
+            );
+        }
+    }
+
+    /// The line after an alarm of the tracker says whether it was a false one.
+    #[test]
+    fn an_alteration_is_one_when_the_next_line_shows_it() {
+        for (turned_mps, altered) in
+            [(Vec2::new(-6.0, 0.0), Alteration::Seen(60.0)), (VELOCITY_MPS, Alteration::None)]
+        {
+            let mut lookout = Lookout::default();
+            let at_m = |t_s: f64| VELOCITY_MPS * t_s.min(60.0) + turned_mps * (t_s - 60.0).max(0.0);
+            let mut seen = Vec::new();
+            for beat in 0..90 {
+                let t_s = f64::from(beat);
+                let shown_mps = if beat == 60 { Vec2::new(-6.0, 0.0) } else { turned_mps };
+                let shown_mps = if beat < 60 { VELOCITY_MPS } else { shown_mps };
+                seen.push(lookout.see(t_s, &track(at_m(t_s), shown_mps)).altered);
+            }
+            assert_eq!(seen[59..64], [&[Alteration::None][..], &[Alteration::Perhaps; 4]].concat());
+            assert_eq!(seen[89], altered);
         }
     }
 
