@@ -45,27 +45,46 @@ fn a_campaign_killed_and_resumed_ends_as_one_never_stopped() {
     assert_same_result(&folder.path().join("straight"), &folder.path().join("killed"));
 }
 
+/// Interrupts a command when `moment` has come; what it says, once it has ended with 3.
+fn interrupt(folder: &Path, line: &str, moment: impl Fn() -> bool) -> String {
+    let mut child = seatrial(folder)
+        .args(line.split_whitespace())
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    while !moment() {
+        assert!(child.try_wait().unwrap().is_none(), "`{line}` ended before it was interrupted");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let id = child.id().to_string();
+    let interrupted = std::process::Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(interrupted.success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    said
+}
+
 #[test]
 fn an_interrupt_leaves_a_resumable_state_and_says_how() {
     let folder = tempfile::tempdir().unwrap();
-    let child = seatrial(folder.path())
-        .args(CAMPAIGN.split_whitespace())
-        .args(["--out", "stopped"])
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    wait_for_parts(&folder.path().join("stopped"), 1);
-    let interrupted = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(interrupted.success());
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("--resume"), "{said}");
-    run_ok(folder.path(), &format!("{CAMPAIGN} --out stopped --resume"));
+    run_ok(folder.path(), &format!("{CAMPAIGN} --out straight"));
+    let straight = folder.path().join("straight");
+    // while encounters are run, and while the table is made of them
+    for (out, file) in [("parts", "state/parts/0000-00000000.part"), ("table", TABLE)] {
+        let there = folder.path().join(out);
+        let line = format!("{CAMPAIGN} --out {out}");
+        let said = interrupt(folder.path(), &line, || there.join(file).exists());
+        assert!(said.contains("--resume"), "{said}");
+        assert!(!there.join("manifest.json").exists(), "it passes for a finished one");
+        run_ok(folder.path(), &format!("{line} --resume"));
+        assert_same_result(&straight, &there);
+    }
 }
+
+/// The table before it is whole.
+const TABLE: &str = "runs.parquet.partial";
 
 /// Whatever was cut or changed in a part is found before it is used.
 #[test]

@@ -37,6 +37,12 @@ fn wrong_campaign_files_are_refused_with_place_and_reason() {
         ("planners = [\"zhuang\"]", "planners = [\"zuang\"]", &["zuang", "zhuang"]),
         ("planners = [\"zhuang\"]", "planners = []", &["planners"]),
         ("rules = \"usv-oe2023-v1\"", "rules = \"mine\"", &["mine", "usv-oe2023-v1"]),
+        (
+            "[model.own]",
+            "[planner.zhuang]\nradus = \"hull\"\n[model.own]",
+            &["changed.toml, line 29", "radus", "radius"],
+        ),
+        ("carried = 0.85", "carried = 1.85", &["changed.toml", "1.85"]),
         ("schema = 1", "schema = 2", &["schema"]),
         ("schema = 1", "schema 1", &["line"]),
     ];
@@ -60,6 +66,8 @@ fn wrong_command_lines_are_refused() {
         ("campaign --planner nobody", "zhuang"),
         ("campaign --encounters 0", "encounters"),
         ("campaign --encounters many", "many"),
+        ("campaign --encounters 18446744073709551615", "at most 1111111111 of each"),
+        ("campaign --encounters 1 --planner zhuang --planner zhuang", "twice"),
         ("campaign --shard 0/3", "1"),
         ("campaign --shard 4/3", "4/3"),
         ("campaign --threads 0", "threads"),
@@ -75,15 +83,63 @@ fn wrong_command_lines_are_refused() {
     }
 }
 
+/// A mistake that belongs to the second planner is told before the first has run for hours.
+#[test]
+fn folders_of_several_planners_are_looked_at_before_the_first_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |path: &str| {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "three years of work").unwrap();
+    };
+    let line = |out: &str| {
+        format!(
+            "campaign --encounters 1 --planner zhuang --planner hold-course --quiet --out {out}"
+        )
+    };
+    write("mine/thesis.txt");
+    write("second/hold-course/thesis.txt");
+    run_ok(folder.path(), "campaign --encounters 1 --out single --quiet");
+    for (out, word) in
+        [("mine", "thesis.txt"), ("second", "thesis.txt"), ("single", "for each planner")]
+    {
+        let said = run_err(folder.path(), &line(out), 2);
+        assert!(said.contains(out) && said.contains(word), "{said}");
+        assert!(!folder.path().join(out).join("zhuang").exists(), "{out} was begun");
+    }
+    run_ok(folder.path(), &line("both"));
+    let said = run_ok(folder.path(), &line("both").replace("--quiet ", ""));
+    assert!(said.contains("finished already"), "{said}");
+    let said = run_err(folder.path(), "slurm quick --shards 3 --out mine", 2);
+    assert!(said.contains("thesis.txt"), "{said}");
+}
+
+#[test]
+fn what_asks_for_a_finished_result_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = "campaign laboratory --encounters 1 --shard 1/2 --out part --quiet";
+    run_ok(folder.path(), campaign);
+    for line in
+        ["replay part head_on/000000", "judge part --rules micro-v1", "evidence part --out pack"]
+    {
+        let said = run_err(folder.path(), line, 2);
+        assert!(said.contains("part is not finished"), "{line}: {said}");
+    }
+}
+
 /// A redirection to a full disk: told once, however many lines are cut, and not called done.
 #[test]
 fn output_that_cannot_be_printed_is_told_once() {
     let folder = tempfile::tempdir().unwrap();
-    let full = fs::File::options().write(true).open("/dev/full").unwrap();
-    let output = seatrial(folder.path()).arg("planners").stdout(full).output().unwrap();
+    let on_full_disk = |argument: &str| {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        seatrial(folder.path()).arg(argument).stdout(full).output().unwrap()
+    };
+    let output = on_full_disk("planners");
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert_eq!(said.matches("standard output was cut").count(), 1, "{said}");
+    assert_eq!(on_full_disk("--help").status.code(), Some(3));
 }
 
 #[test]

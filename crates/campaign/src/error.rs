@@ -86,6 +86,12 @@ impl Error {
         )
     }
 
+    /// The user stopped it, and is told how to go on.
+    pub fn stopped(folder: &Path, go_on: &str) -> Self {
+        let kept = folder.display();
+        Self::Incomplete(format!("stopped; what was done is kept in {kept}; {go_on}"))
+    }
+
     /// Where the reason is a lack of room: the same for somebody who is told how to go on.
     pub fn kept_in(self, folder: &Path, go_on: &str) -> Self {
         if !self.is_no_room() {

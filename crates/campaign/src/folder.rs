@@ -3,6 +3,7 @@
 //! Empty: used. Partial: it holds `state/` with the plan and the parts so far, and needs
 //! `--resume`. Finished: it holds `manifest.json`. Anything else is not ours and is left alone.
 
+use crate::differences::differences;
 use crate::part::PartKey;
 use crate::parts_list::PARTS_LIST;
 use crate::{Error, Plan, part};
@@ -38,10 +39,25 @@ pub const SHARD: &str = "shard-";
 /// How the names of files end that are not whole yet.
 const TEMPORARY: [&str; 2] = [".tmp", ".partial"];
 
+/// What stands beside the folders of several planners.
+const COMPARISON: [&str; 3] = ["comparison.html", "figures", "timing.json"];
+
 /// Also a file that a killed process had not given its name yet.
 fn is_ours(name: &str) -> bool {
-    let name = TEMPORARY.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);
+    let name = without_temporary(name);
     OURS.contains(&name) || name.starts_with(JUDGED) || name.starts_with(SHARD)
+}
+
+fn without_temporary(name: &str) -> &str {
+    TEMPORARY.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name)
+}
+
+/// What a folder is, before anything in it is touched.
+enum Found {
+    Unused,
+    ToReplace,
+    Partial,
+    Finished,
 }
 
 /// An output folder that is ours to write to.
@@ -70,17 +86,78 @@ impl Folder {
     /// `resume`, or is not ours.
     pub fn open(path: &Path, plan: &Plan, resume: bool, force: bool) -> Result<Opened, Error> {
         let this = Self::at(path, plan.hash()?);
-        let shown = path.display();
-        if path.exists() && !path.is_dir() {
+        match this.look(plan, resume, force)? {
+            Found::Partial => return Ok(Opened::Ready(this)),
+            Found::Finished => {
+                // a process that was killed between its last file and this left them
+                this.end()?;
+                return Ok(Opened::Finished(this));
+            }
+            Found::ToReplace => this.clear()?,
+            Found::Unused => {}
+        }
+        this.begin(plan)?;
+        Ok(Opened::Ready(this))
+    }
+
+    /// Whether [`Self::open`] would open it; changes nothing.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn check(path: &Path, plan: &Plan, resume: bool, force: bool) -> Result<(), Error> {
+        Self::at(path, plan.hash()?).look(plan, resume, force).map(drop)
+    }
+
+    /// Refuses a folder for the results of several planners, which will lie in `within`, that holds
+    /// anything else.
+    ///
+    /// # Errors
+    /// It holds something that is neither a result nor of a comparison, or is a result itself.
+    pub fn check_around(path: &Path, within: &[PathBuf]) -> Result<(), Error> {
+        let this = Self::at(path, String::new());
+        this.refuse_file()?;
+        let belongs = |name: &String| {
+            let inside = path.join(name);
+            if COMPARISON.contains(&without_temporary(name)) || within.contains(&inside) {
+                return Ok(true);
+            }
+            Ok(inside.is_dir() && Self::at(&inside, String::new()).is_begun()?)
+        };
+        for name in this.entries()? {
+            if !belongs(&name)? {
+                return Err(Error::input(format!(
+                    "{} is to hold a folder for each planner, and holds {name}; name an empty \
+                     folder with --out",
+                    path.display()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether it holds a result, or the beginning of one.
+    fn is_begun(&self) -> Result<bool, Error> {
+        let entries = self.entries()?;
+        Ok(entries.is_empty() || self.has_barely_begun(&entries)? || self.stored_plan()?.is_some())
+    }
+
+    fn refuse_file(&self) -> Result<(), Error> {
+        if self.path.exists() && !self.path.is_dir() {
+            let shown = self.path.display();
             return Err(Error::input(format!("{shown} is a file; --out wants a folder")));
         }
-        let entries = this.entries()?;
-        if entries.is_empty() || this.has_barely_begun(&entries)? {
-            this.begin(plan)?;
-            return Ok(Opened::Ready(this));
+        Ok(())
+    }
+
+    fn look(&self, plan: &Plan, resume: bool, force: bool) -> Result<Found, Error> {
+        let shown = self.path.display();
+        self.refuse_file()?;
+        let entries = self.entries()?;
+        if entries.is_empty() || self.has_barely_begun(&entries)? {
+            return Ok(Found::Unused);
         }
         let stranger = entries.iter().find(|name| !is_ours(name));
-        let there = this.stored_plan()?;
+        let there = self.stored_plan()?;
         let (Some(there), None) = (there, stranger) else {
             let what = stranger.map_or("no manifest", String::as_str);
             return Err(Error::input(format!(
@@ -89,9 +166,7 @@ impl Folder {
             )));
         };
         if force {
-            this.clear()?;
-            this.begin(plan)?;
-            return Ok(Opened::Ready(this));
+            return Ok(Found::ToReplace);
         }
         let differs = differences(&there, &plan.json()?);
         if !differs.is_empty() {
@@ -101,10 +176,8 @@ impl Folder {
                 differs.join("; ")
             )));
         }
-        if path.join("manifest.json").exists() {
-            // a process that was killed between its last file and this left them
-            this.end()?;
-            return Ok(Opened::Finished(this));
+        if self.path.join("manifest.json").exists() {
+            return Ok(Found::Finished);
         }
         if !resume {
             return Err(Error::input(format!(
@@ -112,7 +185,7 @@ impl Folder {
                  with --force"
             )));
         }
-        Ok(Opened::Ready(this))
+        Ok(Found::Partial)
     }
 
     /// A folder that holds a plan already, for the engine and for replay.
@@ -138,13 +211,40 @@ impl Folder {
         parts: BTreeMap<PartKey, Arc<Path>>,
     ) -> Result<Self, Error> {
         let this = Self { elsewhere: parts, ..Self::at(path, plan.hash()?) };
-        let stranger = this.entries()?.into_iter().find(|name| !is_ours(name));
-        if let Some(what) = stranger {
-            let shown = path.display();
-            return Err(Error::input(format!("{shown} holds {what}, which is no shard's")));
-        }
+        Self::check_for_shards(path)?;
         this.begin(plan)?;
         Ok(this)
+    }
+
+    /// Refuses a folder that shards cannot be merged in.
+    ///
+    /// # Errors
+    /// It holds something that is not ours.
+    pub fn check_for_shards(path: &Path) -> Result<(), Error> {
+        let this = Self::at(path, String::new());
+        this.refuse_file()?;
+        let Some(what) = this.entries()?.into_iter().find(|name| !is_ours(name)) else {
+            return Ok(());
+        };
+        let shown = path.display();
+        Err(Error::input(format!(
+            "{shown} holds {what}, which is no shard's; name an empty folder"
+        )))
+    }
+
+    /// A folder with a finished result.
+    ///
+    /// # Errors
+    /// There is none, or the beginning of one.
+    pub fn finished(path: &Path) -> Result<(Self, Plan), Error> {
+        let found = Self::existing(path)?;
+        if path.join("manifest.json").exists() {
+            return Ok(found);
+        }
+        Err(Error::input(format!(
+            "{} is not finished; go on with `campaign --resume` first",
+            path.display()
+        )))
     }
 
     fn at(path: &Path, plan_hash: String) -> Self {
@@ -255,49 +355,5 @@ impl Folder {
             }
         }
         Ok(())
-    }
-}
-
-/// What differs between two plans, as at most four `key: there, here` texts. The commit is no
-/// difference while engine and planners are the same.
-pub(crate) fn differences(there: &Value, here: &Value) -> Vec<String> {
-    const SHOWN: usize = 4;
-    let mut found = Vec::new();
-    compare("", there, here, &mut found);
-    found.retain(|text: &String| !text.starts_with("build.git_"));
-    if found.len() > SHOWN {
-        let more = found.len() - SHOWN;
-        found.truncate(SHOWN);
-        found.push(format!("and {more} more"));
-    }
-    found
-}
-
-fn compare(key: &str, there: &Value, here: &Value, found: &mut Vec<String>) {
-    match (there, here) {
-        (Value::Object(a), Value::Object(b)) => {
-            let mut keys: Vec<&String> = a.keys().chain(b.keys()).collect();
-            keys.sort();
-            keys.dedup();
-            for name in keys {
-                let path = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
-                let null = &Value::Null;
-                compare(&path, a.get(name).unwrap_or(null), b.get(name).unwrap_or(null), found);
-            }
-        }
-        (a, b) if a != b => {
-            found.push(format!("{key} is {} there and {} here", brief(a), brief(b)))
-        }
-        _ => {}
-    }
-}
-
-fn brief(value: &Value) -> String {
-    const LONGEST: usize = 40;
-    let text = value.to_string();
-    if text.chars().count() <= LONGEST {
-        text
-    } else {
-        text.chars().take(LONGEST).chain("...".chars()).collect()
     }
 }

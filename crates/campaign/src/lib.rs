@@ -6,6 +6,7 @@
 
 pub mod avoidable;
 pub mod cases;
+mod differences;
 pub mod engine;
 pub mod error;
 pub mod folder;

@@ -149,13 +149,13 @@ impl Source {
             safety_radius_m: file.run.safety_radius_m,
             distance: file.run.distance,
         };
-        let wrong = |e: encounter::Error| Error::input(format!("campaign {}: {e}", file.name));
+        let origin = &file.origin.name;
+        let wrong = |e: encounter::Error| Error::input(format!("campaign {origin}: {e}"));
         if let Some(path) = situations {
             let Some(how) = &file.situations else {
                 return Err(Error::input(format!(
-                    "campaign {} has no [situations] table, which says how --situations are \
-                     taken over; use the campaign `situations`",
-                    file.name
+                    "campaign {origin} has no [situations] table, which says how --situations are \
+                     taken over; use the campaign `situations`"
                 )));
             };
             let fixed = encounter::read_situations(path, how, &settings).map_err(wrong)?;
@@ -163,8 +163,7 @@ impl Source {
         }
         if file.situations.is_some() {
             return Err(Error::input(format!(
-                "campaign {} runs situations of other tools: name them with --situations PATH",
-                file.name
+                "campaign {origin} runs situations of other tools: name them with --situations PATH"
             )));
         }
         match (&file.model, &file.set) {
@@ -175,10 +174,14 @@ impl Source {
             (None, Some(set)) => Ok(Self::Fixed(
                 encounter::situations(set, &file.situation, &settings).map_err(wrong)?,
             )),
-            (None, None) => Err(Error::input(format!("campaign {} has no source", file.name))),
+            (None, None) => Err(Error::input(format!("campaign {origin} has no source"))),
         }
     }
 }
+
+/// Most encounters of a campaign: a run keeps a list of its parts in memory, which is some 300 MB
+/// for so many.
+const ENCOUNTERS_MAX: u64 = 10_000_000_000;
 
 /// A campaign resolved for one planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -239,8 +242,22 @@ impl Plan {
             source: source.clone(),
             build: build.clone(),
         };
-        plan.check_first_of_each()?;
+        let wrong = |what: String| Error::input(format!("campaign {}: {what}", file.origin.name));
+        plan.check_size().map_err(wrong)?;
+        plan.check_first_of_each().map_err(|e| wrong(e.to_string()))?;
         Ok(plan)
+    }
+
+    fn check_size(&self) -> Result<(), String> {
+        let (strata, n) = (self.strata.len() as u64, self.encounters_per_stratum);
+        let most = ENCOUNTERS_MAX / strata.max(1);
+        if n <= most {
+            return Ok(());
+        }
+        Err(format!(
+            "{n} encounters of each of {strata} strata are more than the {ENCOUNTERS_MAX} that one \
+             campaign can hold; ask for at most {most} of each"
+        ))
     }
 
     /// What can be wrong with an encounter (an unknown vessel, hulls that overlap) is told before

@@ -4,7 +4,8 @@
 //! that no two machines write to one file. Parts appear whole, by rename, and carry the hash of
 //! their plan and of their content; here they are only found, and read later one by one in order.
 
-use crate::folder::{SHARD, differences};
+use crate::differences::differences;
+use crate::folder::SHARD;
 use crate::part::PartKey;
 use crate::pipeline::shard_keys;
 use crate::{Error, Folder, Plan};

@@ -2,7 +2,7 @@
 //! changes a result.
 
 use crate::{Error, Plan, Source};
-use planner_api::Registry;
+use planner_api::{OptionsError, Registry};
 use record::{DistanceKind, RunLimits, RunUntil};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -42,6 +42,49 @@ pub struct CampaignFile {
     pub planner: BTreeMap<String, toml::Table>,
     /// What the gate declares before it runs; the gate reads it, a campaign does not.
     pub gate: Option<toml::Table>,
+    /// What messages call the file, and where the options of its planners stand.
+    #[serde(skip)]
+    pub(crate) origin: Origin,
+}
+
+/// Where a campaign was read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Origin {
+    /// Path of the file, or the name of one that is built in.
+    pub(crate) name: String,
+    /// Lines of the options of planners, by planner and key.
+    option_lines: BTreeMap<(String, String), usize>,
+}
+
+impl Origin {
+    fn new(name: &str, text: &str) -> Self {
+        let mut option_lines = BTreeMap::new();
+        // what can be read as a campaign can be read as a table
+        let file = toml::de::DeTable::parse(text).ok();
+        let planners = file.as_ref().and_then(|file| file.get_ref().get("planner"));
+        for (planner, options) in
+            planners.and_then(|p| p.get_ref().as_table()).into_iter().flatten()
+        {
+            for (key, _) in options.get_ref().as_table().into_iter().flatten() {
+                let line = 1 + text[..key.span().start].matches('\n').count();
+                option_lines
+                    .insert((planner.get_ref().to_string(), key.get_ref().to_string()), line);
+            }
+        }
+        Self { name: name.to_owned(), option_lines }
+    }
+
+    /// Says of an error in a planner's options where it stands, so far as is known.
+    fn of_options(&self, error: &OptionsError) -> Error {
+        let line = match error {
+            OptionsError::UnknownKey { planner, key, .. } => {
+                self.option_lines.get(&(planner.clone(), key.clone()))
+            }
+            _ => None,
+        };
+        let line = line.map_or(String::new(), |line| format!(", line {line}"));
+        Error::input(format!("campaign {}{line}: {error}", self.name))
+    }
 }
 
 /// Clock, ends and limits of every run.
@@ -136,7 +179,7 @@ pub type FindRules<'a> = &'a dyn Fn(&str) -> Result<String, Error>;
 impl CampaignFile {
     /// Reads a campaign from TOML; `origin` names it in messages.
     pub fn parse(text: &str, origin: &str) -> Result<Self, Error> {
-        let file: Self = toml::from_str(text).map_err(|e| {
+        let mut file: Self = toml::from_str(text).map_err(|e| {
             Error::input(format!("campaign {origin}: {}", e.to_string().trim_end()))
         })?;
         if file.schema != 1 {
@@ -146,6 +189,7 @@ impl CampaignFile {
             )));
         }
         file.check().map_err(|what| Error::input(format!("campaign {origin}: {what}")))?;
+        file.origin = Origin::new(origin, text);
         Ok(file)
     }
 
@@ -191,7 +235,8 @@ impl CampaignFile {
             }
         }
         for name in self.planner.keys() {
-            registry.get(name).map_err(|e| Error::input(format!("[planner.{name}]: {e}")))?;
+            let wrong = |e| format!("campaign {}: [planner.{name}]: {e}", self.origin.name);
+            registry.get(name).map_err(|e| Error::input(wrong(e)))?;
         }
         let encounters_per_stratum = overrides.encounters.unwrap_or(self.encounters_per_stratum);
         if encounters_per_stratum == 0 {
@@ -209,9 +254,9 @@ impl CampaignFile {
                 let entry = registry.get(name).map_err(|e| Error::input(e.to_string()))?;
                 let options = entry
                     .resolve(self.planner.get(name).unwrap_or(&none))
-                    .map_err(|e| Error::input(e.to_string()))?;
+                    .map_err(|e| self.origin.of_options(&e))?;
                 // a wrong value is told now, not by the first worker that makes the planner
-                (entry.make)(&options).map_err(|e| Error::input(e.to_string()))?;
+                (entry.make)(&options).map_err(|e| self.origin.of_options(&e))?;
                 Plan::new(self, overrides, name, options, &rules, &source, build)
             })
             .collect()

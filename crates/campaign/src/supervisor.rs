@@ -24,6 +24,9 @@ use std::time::Duration;
 /// Engines that die without anybody being guilty, before the harness itself is suspected.
 const UNEXPLAINED_DEATHS_MAX: u32 = 3;
 
+/// How a campaign is taken up again.
+pub const GO_ON: &str = "go on with the same command and --resume";
+
 /// How often a running process is looked at.
 const LOOK_EVERY: Duration = Duration::from_millis(10);
 
@@ -206,10 +209,7 @@ impl Supervisor<'_> {
 
     fn stop_if_interrupted(&self, folder: &Folder) -> Result<(), Error> {
         if self.interrupted.load(Ordering::Relaxed) {
-            return Err(Error::Incomplete(format!(
-                "stopped; what was done is kept in {}; go on with the same command and --resume",
-                folder.path().display()
-            )));
+            return Err(Error::stopped(folder.path(), GO_ON));
         }
         Ok(())
     }

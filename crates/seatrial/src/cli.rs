@@ -12,6 +12,19 @@ Exit codes:
   3  inconclusive or incomplete; after Ctrl-C, go on with --resume
   4  harness fault: nothing that was written may be trusted";
 
+const CAMPAIGN_EXAMPLES: &str = "\
+Examples:
+  seatrial campaign quick --encounters 200
+  seatrial campaign mine.toml --planner zhuang --planner 'exec:python3 mine.py' --out both
+  seatrial campaign quick --resume             after Ctrl-C, a full disk or a kill
+  seatrial campaign quick --shard 3/1000 --out all/shard-3
+
+Exit codes:
+  0  done; collisions found are a result, not an error
+  2  usage, campaign or input error
+  3  incomplete; after Ctrl-C, go on with --resume
+  4  harness fault: nothing that was written may be trusted";
+
 /// A million sea trials for a collision-avoidance planner, before its first one.
 ///
 /// Runs randomized encounters against a planner, judges every one against the collision
@@ -29,7 +42,11 @@ pub(crate) enum Command {
     /// Run a campaign and write its report
     ///
     /// FILE is a campaign file, or the name of one that is built in; `quick` is the default.
-    #[command(after_help = EXIT_CODES)]
+    ///
+    /// DIR gets report.html, which opens offline, runs.parquet with a row for every encounter,
+    /// summary.json, figures/, manifest.json with everything that decided a number, and
+    /// timing.json. Of several planners each has a folder of its own in DIR, beside one comparison.
+    #[command(after_help = CAMPAIGN_EXAMPLES)]
     Campaign(CampaignArgs),
     /// Run one encounter of a result again, alone, compare its digest and draw it
     #[command(after_help = EXIT_CODES)]
@@ -91,7 +108,7 @@ pub(crate) enum Command {
     /// Several planners on the same encounters, side by side
     #[command(after_help = EXIT_CODES)]
     Compare {
-        /// Planners of the registry
+        /// Planners of the registry, `exec:COMMAND` or `lib:FILE`
         #[arg(required = true, num_args = 2..)]
         planners: Vec<String>,
         #[command(flatten)]
@@ -295,10 +312,11 @@ pub(crate) struct CampaignArgs {
     /// situations]
     #[arg(value_name = "FILE|NAME")]
     pub(crate) campaign: Option<String>,
-    /// A planner of the registry, instead of the campaign's; may be given several times
+    /// A planner of the registry, `exec:COMMAND` or `lib:FILE`, instead of the campaign's; may be
+    /// given several times
     #[arg(long = "planner", value_name = "NAME")]
     pub(crate) planners: Vec<String>,
-    /// Rule set, instead of the campaign's
+    /// Rule set, a name or a file that ends in .toml, instead of the campaign's
     #[arg(long, value_name = "NAME")]
     pub(crate) rules: Option<String>,
     /// DNV traffic situations (JSON): a file or a folder

@@ -30,6 +30,7 @@ mod timing;
 
 use clap::Parser;
 use planner_api::Registry;
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 /// Runs the command line with these planners.
@@ -39,8 +40,12 @@ pub fn main_with(registry: Registry) -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             // help and version are no errors; a reader that closed the pipe is none either
-            drop(error.print());
-            return ExitCode::from(if error.use_stderr() { exit::USAGE } else { exit::DONE });
+            let cut = matches!(error.print(), Err(e) if e.kind() != ErrorKind::BrokenPipe);
+            return ExitCode::from(match error.use_stderr() {
+                true => exit::USAGE,
+                false if cut => exit::INCOMPLETE,
+                false => exit::DONE,
+            });
         }
     };
     exit::code(commands::run(cli.command, registry))

@@ -13,7 +13,7 @@ use report::{Cost, Extra};
 use serde::Serialize;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 /// Encounters of each stratum that are run again.
@@ -51,10 +51,15 @@ pub(super) fn measure(
     registry: Registry,
     out: &Path,
     quiet: bool,
+    interrupted: &AtomicBool,
 ) -> Result<Vec<PlannerCost>, Error> {
     let registry = Arc::new(registry);
+    let stop = || match interrupted.load(Ordering::Relaxed) {
+        true => Err(Error::stopped(out, "go on with the same command")),
+        false => Ok(()),
+    };
     let costs: Vec<PlannerCost> =
-        plans.iter().map(|plan| cost(plan, &registry)).collect::<Result<_, Error>>()?;
+        plans.iter().map(|plan| cost(plan, &registry, &stop)).collect::<Result<_, Error>>()?;
     let planners = costs.iter().map(|c| PlannerTiming {
         planner: &c.planner,
         encounters: c.cost.whole.encounters,
@@ -79,7 +84,11 @@ pub(super) fn measure(
     Ok(costs)
 }
 
-fn cost(plan: &Plan, registry: &Arc<Registry>) -> Result<PlannerCost, Error> {
+fn cost(
+    plan: &Plan,
+    registry: &Arc<Registry>,
+    stop: &dyn Fn() -> Result<(), Error>,
+) -> Result<PlannerCost, Error> {
     let clock = Arc::new(Clock::default());
     let clocked = Registry::new().with(clocked(plan, registry, &clock)?);
     let shop = Shop::new(plan, &clocked)?;
@@ -89,6 +98,7 @@ fn cost(plan: &Plan, registry: &Arc<Registry>) -> Result<PlannerCost, Error> {
     for (stratum, name) in (0..).zip(&plan.strata) {
         let mut extra = Extra::default();
         for j in 0..SAMPLE.min(plan.encounters_per_stratum) {
+            stop()?;
             let run = worker.run(stratum, j, &AtomicU64::new(0))?;
             if let (Some(extra_m), false) = (run.row.extra_distance_m, run.row.unknown) {
                 add(&mut extra, extra_m, extra_time_s(&run));

@@ -8,7 +8,7 @@ use crate::say::say;
 use crate::timing::Stopwatch;
 use crate::{build, embedded};
 use campaign::folder::Opened;
-use campaign::supervisor::{self, Supervisor};
+use campaign::supervisor::{self, GO_ON, Supervisor};
 use campaign::{CampaignFile, Error, Folder, Overrides, Plan, run_parts};
 use planner_api::Registry;
 use std::path::{Path, PathBuf};
@@ -20,20 +20,21 @@ pub(super) fn run(args: &CampaignArgs, registry: Registry) -> Result<Ended, Erro
     let out = args.out.clone().unwrap_or_else(|| default_folder(&plans));
     let several = plans.len() > 1;
     let threads = threads(args.threads)?;
+    let folders = folders(&plans, &out, args)?;
     let interrupted = on_interrupt()?;
     let mut results = Vec::new();
-    for plan in &plans {
-        let folder = if several { out.join(folder_name(&plan.planner.name)) } else { out.clone() };
+    for (plan, folder) in plans.iter().zip(&folders) {
         let registry = &registry;
         let job = Job { plan, registry, threads, interrupted: &interrupted, args, several };
-        if let Some(result) = job.run(&folder)? {
+        if let Some(result) = job.run(folder)? {
             results.push(result);
         }
     }
     if several && args.shard.is_none() {
         let sound = plans.iter().zip(&results).filter(|(_, result)| !result.takes_its_process());
         let sound: Vec<&Plan> = sound.map(|(plan, _)| plan).collect();
-        let costs = super::avoiding_cost::measure(&sound, registry, &out, args.quiet)?;
+        let costs =
+            super::avoiding_cost::measure(&sound, registry, &out, args.quiet, &interrupted)?;
         finish::comparison(&out, &results, &costs, args.quiet)?;
     }
     Ok(Ended::Done)
@@ -74,6 +75,32 @@ fn default_folder(plans: &[Plan]) -> PathBuf {
     Path::new("reports").join(name)
 }
 
+/// The folder of each plan. All are looked at before the first is run, and none is touched when one
+/// of them is refused.
+fn folders(plans: &[Plan], out: &Path, args: &CampaignArgs) -> Result<Vec<PathBuf>, Error> {
+    let folders: Vec<PathBuf> = match plans {
+        [_] => vec![out.to_owned()],
+        several => {
+            let name = |plan: &Plan| folder_name(&plan.planner.name);
+            let folders: Vec<PathBuf> = several.iter().map(|plan| out.join(name(plan))).collect();
+            Folder::check_around(out, &folders)?;
+            folders
+        }
+    };
+    for (i, (plan, folder)) in plans.iter().zip(&folders).enumerate() {
+        if let Some(other) = folders[..i].iter().position(|other| other == folder) {
+            return Err(Error::input(format!(
+                "planners `{}` and `{}` would share the folder {}; run them one by one",
+                plans[other].planner.name,
+                plan.planner.name,
+                folder.display()
+            )));
+        }
+        Folder::check(folder, plan, args.resume, args.force)?;
+    }
+    Ok(folders)
+}
+
 /// A planner's name as the name of a folder: `exec:./my_planner --flag` has more than letters.
 fn folder_name(planner: &str) -> String {
     let safe = |c: char| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '_' };
@@ -88,7 +115,7 @@ pub(super) fn threads(asked: Option<usize>) -> Result<usize, Error> {
     }
 }
 
-fn on_interrupt() -> Result<Arc<AtomicBool>, Error> {
+pub(super) fn on_interrupt() -> Result<Arc<AtomicBool>, Error> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
@@ -133,7 +160,7 @@ impl Job<'_> {
         };
         let mut stopwatch = Stopwatch::start();
         let shard = self.args.shard.unwrap_or((1, 1));
-        let go_on = |e: Error| e.kept_in(folder.path(), "go on with the same command and --resume");
+        let go_on = |e: Error| e.kept_in(folder.path(), GO_ON);
         self.run_parts(&folder, shard).map_err(go_on)?;
         stopwatch.lap("run");
         if self.args.shard.is_some() {
@@ -142,8 +169,14 @@ impl Job<'_> {
             }
             return Ok(None);
         }
-        let how =
-            finish::How { threads: self.threads, in_parts: false, quiet, beside: self.several };
+        let how = finish::How {
+            threads: self.threads,
+            in_parts: false,
+            quiet,
+            beside: self.several,
+            interrupted: self.interrupted,
+            go_on: GO_ON,
+        };
         finish::finish(plan, self.registry, &folder, &mut stopwatch, how).map(Some).map_err(go_on)
     }
 

@@ -34,7 +34,7 @@ pub(super) fn run(wanted: &Wanted<'_>, registry: Registry) -> Result<Ended, Erro
             out.display()
         )));
     }
-    let (folder, plan) = Folder::existing(wanted.dir)?;
+    let (folder, plan) = Folder::finished(wanted.dir)?;
     let table = crate::stored::whole_table(folder.path())?;
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
     plan.refuse_weights("the claims of an evidence pack")?;

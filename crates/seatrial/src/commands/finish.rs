@@ -14,6 +14,7 @@ use report::{Card, Compared};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use summary::{Summary, Tallies};
 
 /// What a comparison needs of one planner.
@@ -77,9 +78,23 @@ impl RowSink for Rows {
     }
 }
 
+/// Takes rows until the user wants to stop.
+struct Stoppable<'a> {
+    rows: Rows,
+    dir: &'a Path,
+    how: How<'a>,
+}
+
+impl RowSink for Stoppable<'_> {
+    fn push(&mut self, part: PartRead) -> Result<(), Error> {
+        self.how.stop_if_interrupted(self.dir)?;
+        self.rows.push(part)
+    }
+}
+
 /// How a result was made, and what is said of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct How {
+pub(super) struct How<'a> {
     pub(super) threads: usize,
     /// Leave the rows in the parts instead of making a table of them.
     pub(super) in_parts: bool,
@@ -87,6 +102,17 @@ pub(super) struct How {
     pub(super) quiet: bool,
     /// It is one of several that are compared in the folder above.
     pub(super) beside: bool,
+    /// Set when the user wants to stop.
+    pub(super) interrupted: &'a AtomicBool,
+    /// What the user is told then.
+    pub(super) go_on: &'a str,
+}
+
+impl How<'_> {
+    fn stop_if_interrupted(&self, dir: &Path) -> Result<(), Error> {
+        let stopped = self.interrupted.load(Ordering::Relaxed);
+        if stopped { Err(Error::stopped(dir, self.go_on)) } else { Ok(()) }
+    }
 }
 
 /// Writes every file of a result, the manifest last, and prints the headline.
@@ -95,12 +121,12 @@ pub(super) fn finish(
     registry: &Registry,
     folder: &Folder,
     stopwatch: &mut Stopwatch,
-    how: How,
+    how: How<'_>,
 ) -> Result<PlannerResult, Error> {
     let dir = folder.path();
-    let mut rows = Rows::create(dir, how.in_parts)?;
+    let mut rows = Stoppable { rows: Rows::create(dir, how.in_parts)?, dir, how };
     let finished = campaign::finish(plan, folder, &mut rows)?;
-    rows.finish()?;
+    rows.rows.finish()?;
     stopwatch.lap("table");
     let mut rendering = Rendering::new(
         plan,
@@ -110,6 +136,7 @@ pub(super) fn finish(
         (&finished.cases, &finished.findings, &finished.disagreements),
     )?;
     rendering.card.beside = how.beside;
+    how.stop_if_interrupted(dir)?;
     files::write(&dir.join("summary.json"), rendering.summary.to_json().as_bytes())?;
     report::write(dir, &rendering.input()).map_err(Error::stage)?;
     stopwatch.lap("report");

@@ -21,13 +21,7 @@ use std::path::{Path, PathBuf};
 use summary::{Summary, Tallies};
 
 pub(super) fn run(args: &JudgeArgs, registry: Registry) -> Result<Ended, Error> {
-    let (folder, plan) = Folder::existing(&args.dir)?;
-    if !args.dir.join("manifest.json").exists() {
-        return Err(Error::input(format!(
-            "{} is not finished; go on with `campaign --resume` first",
-            args.dir.display()
-        )));
-    }
+    let (folder, plan) = Folder::finished(&args.dir)?;
     if let Some(pack) = files::pack_around(&args.dir) {
         return Err(Error::input(format!(
             "{} is part of the pack {}, which must not change; copy it elsewhere first",

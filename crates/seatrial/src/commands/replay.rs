@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub(super) fn run(dir: &Path, encounter_id: &str, registry: Registry) -> Result<Ended, Error> {
     let id: EncounterId =
         encounter_id.parse().map_err(|e: record::id::ParseIdError| Error::input(e.to_string()))?;
-    let (folder, plan) = Folder::existing(dir)?;
+    let (folder, plan) = Folder::finished(dir)?;
     let registry = super::with_outside(registry, std::slice::from_ref(&plan.planner.name))?;
     campaign::engine::quiet_planner_panics();
     let stored = crate::stored::find(folder.path(), &plan, &id)?;

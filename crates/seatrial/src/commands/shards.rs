@@ -76,7 +76,15 @@ pub(super) fn merge(wanted: &Merge<'_>, registry: Registry) -> Result<Ended, Err
         // the result of before is no longer whole once its list of parts is gone
         fs::remove_file(&manifest).map_err(Error::io("remove", &manifest))?;
     }
-    let how = finish::How { threads: 1, in_parts: table_in_parts, quiet, beside: false };
+    let interrupted = super::campaign::on_interrupt()?;
+    let how = finish::How {
+        threads: 1,
+        in_parts: table_in_parts,
+        quiet,
+        beside: false,
+        interrupted: &interrupted,
+        go_on: "merge again",
+    };
     finish::finish(&plan, &registry, &folder, &mut stopwatch, how)
         .map_err(|e| e.kept_in(dir, "merge again"))?;
     Ok(Ended::Done)

@@ -8,7 +8,7 @@ use crate::cli::SlurmArgs;
 use crate::exit::Ended;
 use crate::files;
 use crate::say::say;
-use campaign::Error;
+use campaign::{Error, Folder};
 use std::fs;
 use std::path::Path;
 
@@ -38,6 +38,8 @@ pub(super) fn run(args: &SlurmArgs) -> Result<Ended, Error> {
     };
     let path = |path: &Path| std::path::absolute(path).map_err(Error::io("find", path));
     let out = path(&args.out)?;
+    // the job that merges would refuse it, at the end
+    Folder::check_for_shards(&out)?;
     let campaign = match args.campaign.ends_with(".toml") || args.campaign.contains('/') {
         true => path(Path::new(&args.campaign))?.to_string_lossy().into_owned(),
         false => args.campaign.clone(),
