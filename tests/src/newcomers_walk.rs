@@ -52,3 +52,22 @@ fn the_planner_of_the_document_runs_in_an_empty_folder() {
     // it looks at nobody, as the document says
     assert!(rows.iter().any(|row| row.safety_radius_broken));
 }
+
+/// No collision in a run in which the planner never answered is no good news: the terminal says so,
+/// and in the planner's own words.
+#[test]
+fn a_planner_that_does_not_start_is_told_on_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let planner = ["--planner", "exec:python3 nowhere.py"];
+    let said = |arguments: &[&str], code: i32| {
+        let output = seatrial(folder.path()).args(arguments).args(planner).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let campaign = said(&["campaign", "laboratory", "--encounters", "1"], 0);
+    let failed = "the planner failed in 9 of 9 runs (9 planner_crashed)";
+    assert!(campaign.contains(failed) && campaign.contains("nowhere.py"), "{campaign}");
+    let conformance = said(&["conformance"], 1);
+    assert!(conformance.contains("planner_crashed"), "{conformance}");
+    assert!(conformance.contains("nowhere.py"), "{conformance}");
+}

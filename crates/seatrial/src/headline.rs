@@ -1,6 +1,6 @@
 //! The table of headline figures, for a terminal of any width.
 
-use record::Status;
+use record::{Outcome, Status};
 use std::fmt::Write;
 use summary::{BoundedRate, StratumSummary, Summary};
 
@@ -28,6 +28,26 @@ pub(crate) fn wall_clock(ended: u64) -> Option<String> {
         format!(
             "{ended} {many} ended by a limit on the wall clock: a faster machine might not end \
              them, and its digest would then be another"
+        )
+    })
+}
+
+/// What must be said beside rates of a planner that did not answer: such a run is no collision.
+pub(crate) fn planner_failures(summary: &Summary) -> Option<String> {
+    let of = |outcome: Outcome| -> u64 {
+        summary.strata.iter().filter_map(|s| s.outcomes.get(&outcome)).sum()
+    };
+    let kinds = Outcome::ALL.into_iter().filter(|outcome| outcome.is_planner_failure());
+    let kinds: Vec<(Outcome, u64)> =
+        kinds.map(|outcome| (outcome, of(outcome))).filter(|(_, k)| *k > 0).collect();
+    let failed: u64 = kinds.iter().map(|(_, k)| k).sum();
+    let words: Vec<String> = kinds.iter().map(|(o, k)| format!("{k} {}", o.name())).collect();
+    (failed > 0).then(|| {
+        format!(
+            "the planner failed in {failed} of {} runs ({}); they count as failures in the upper \
+             bounds alone",
+            summary.encounters,
+            words.join(", ")
         )
     })
 }

@@ -53,6 +53,13 @@ impl Rendering {
         Ok(Self { card: card(plan)?, summary, tallies, findings, cases, scenes })
     }
 
+    /// The first failure of the planner that is shown: which run, and in words.
+    pub(crate) fn first_failure(&self) -> Option<(&EncounterId, &str)> {
+        let rows = self.cases.iter().map(|case| &case.row);
+        let mut failed = rows.filter(|row| row.outcome.is_planner_failure());
+        failed.find_map(|row| Some((&row.id, row.planner_detail.as_deref()?)))
+    }
+
     /// As the report wants it.
     pub(crate) fn input(&self) -> ReportInput<'_> {
         ReportInput {

@@ -146,6 +146,12 @@ pub(super) fn finish(
     folder.end()?;
     if !how.quiet {
         say_text!("{}", headline::table(&rendering.summary, headline::terminal_columns()));
+        if let Some(failures) = headline::planner_failures(&rendering.summary) {
+            say!("{failures}");
+            if let Some((id, said)) = rendering.first_failure() {
+                say!("{id}: {said}");
+            }
+        }
         say!("root digest {}", finished.root_digest);
         if let Some(warning) = headline::wall_clock(rendering.summary.ended_by_wall_clock) {
             say!("{warning}");
