@@ -3,8 +3,8 @@
 messages.py tap FOLDER COMMAND...  stands between them, hands every line on, and writes it down in a
                                    file of its own in FOLDER: a planner for `exec:`.
 messages.py check SCHEMAS FOLDER   checks every line that was written down, that the lines hold what
-                                   the schemas describe in all its forms, and that the schemas refuse
-                                   what is none of their messages.
+                                   the schemas describe in all its forms, and that the schemas
+                                   refuse what is none of their messages.
 """
 
 import copy
