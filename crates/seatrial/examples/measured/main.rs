@@ -13,6 +13,7 @@
 //! * `findings`: the seed planner's faults, each with the clusters of the reports that show it;
 //! * `failures DIR...`: what checks and events found in a result, by class, with exact bounds and
 //!   the worst encounter;
+//! * `radius DIR...`: why runs came inside the safety radius;
 //! * `random DIR...`: the paper's own world: distances, first alterations, inner loop and goal;
 //! * `made DIR...`: the build that made the results, one line for each that differs;
 //! * `compare DIR`: the planners of a comparison side by side;
@@ -21,6 +22,7 @@
 mod compare;
 mod failures;
 mod findings;
+mod radius;
 mod random;
 
 use anyhow::{Context, bail};
@@ -80,6 +82,7 @@ fn table_of(results: &Path, words: &[&str]) -> anyhow::Result<String> {
     match *what {
         "findings" => findings::print(&mut out, results)?,
         "failures" => failures::print(&mut out, &dirs)?,
+        "radius" => radius::print(&mut out, &dirs)?,
         "random" => random::print(&mut out, &dirs)?,
         "compare" => compare::print(&mut out, &dirs)?,
         "made" => made(&mut out, &dirs)?,
