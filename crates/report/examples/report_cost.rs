@@ -1,8 +1,8 @@
 //! What a report costs: `cargo run --config .cargo/optimised.toml -p report --example report_cost`.
 //!
 //! Milliseconds of this thread's processor to render one (nothing is written), and its bytes: for
-//! few and many encounters, since its cost must not grow with them, and with and without the
-//! encounters that are shown with their tracks.
+//! few and many encounters, since what it holds is counts, and with and without the encounters that
+//! are shown with their tracks.
 
 #[path = "../tests/fixture/mod.rs"]
 mod fixture;

@@ -2,7 +2,7 @@
 //! `cargo run --config .cargo/optimised.toml -p table --example table_cost`.
 //!
 //! Microseconds of this thread's processor for a row, and bytes of the file, over five whole row
-//! groups. The rows hold more than those of a campaign, whose tables come out smaller.
+//! groups. The rows follow a pattern, so they pack better than those of a campaign.
 
 #[path = "../tests/sample/mod.rs"]
 mod sample;
