@@ -63,8 +63,8 @@ fn main() -> Result<(), Error> {
     assert_eq!(counted.0, READINGS * encounters);
     let each = |seconds: f64, unit: f64| seconds * unit / encounters as f64;
     println!(
-        "{encounters} encounters of {} with {}: run {:.3} ms, part written {:.2} us, read and added up \
-         {:.2} us each; root digest {root_digest}",
+        "{encounters} encounters of {} with {}: run {:.3} ms, part written {:.2} us, read and \
+         added up {:.2} us each; root digest {root_digest}",
         plan.campaign,
         plan.planner.name,
         each(run_s, 1e3),
