@@ -27,7 +27,7 @@ pub struct Source {
 }
 
 /// No law of own speed reaches beyond this, m/s: what the small craft of the template can do.
-const OWN_MPS_MAX: f64 = 12.0;
+pub const OWN_MPS_MAX: f64 = 9.6;
 
 /// The template with the laws of the file. Keys are replaced in their tables.
 ///

@@ -135,3 +135,18 @@ fn sample(law: &Law) -> Sample {
     });
     Sample { name: law.name.to_owned(), values: law.sample.clone(), law: density.collect(), note }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use record::Vessel;
+
+    /// A faster own speed would be drawn and could not be sailed: such a run is invalid.
+    #[test]
+    fn own_ship_can_sail_what_a_model_draws() {
+        let template: toml::Table = embedded::campaign_text(TEMPLATE).unwrap().parse().unwrap();
+        let name = template["model"]["own"]["vessel"].as_str().unwrap().to_owned();
+        let limits = sim::limits(&Vessel::Model(name)).unwrap();
+        assert!(model_file::OWN_MPS_MAX <= limits.speed_mps_max, "{}", limits.speed_mps_max);
+    }
+}
