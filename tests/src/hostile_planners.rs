@@ -95,13 +95,19 @@ for line in sys.stdin:
 const ENCOUNTERS: usize = 40;
 
 /// A campaign of one stratum in the laboratory, with the limits of its planner in the file.
-fn campaign(folder: &Path, name: &str, planner: &str, limits: &str) -> Vec<RunRow> {
+fn campaign(
+    folder: &Path,
+    name: &str,
+    planner: &str,
+    limits: &str,
+    hang_limit_s: f64,
+) -> Vec<RunRow> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../campaigns/laboratory.toml");
     let mut table: toml::Table = fs::read_to_string(file).unwrap().parse().unwrap();
     table.insert("planners".into(), toml::Value::Array(vec![planner.into()]));
     let run = table["run"].as_table_mut().unwrap();
     run.insert("twice_run_share".into(), 0.0.into());
-    run.insert("planner_hang_limit_s".into(), 2.0.into());
+    run.insert("planner_hang_limit_s".into(), hang_limit_s.into());
     let model = table["model"].as_table_mut().unwrap();
     let strata = model["stratum"].as_array().unwrap()[1..2].to_vec();
     model.insert("stratum".into(), toml::Value::Array(strata));
@@ -126,6 +132,7 @@ struct Way {
     at_start: bool,
 }
 
+// The limits are on the wall clock: long enough that a busy machine loses nobody else.
 const fn way(act: &'static str, outcome: Outcome, words: &'static [&'static str]) -> Way {
     Way { act, limits: "call_limit_s = 1.5", outcome, words, at_start: false }
 }
@@ -133,19 +140,13 @@ const fn way(act: &'static str, outcome: Outcome, words: &'static [&'static str]
 const WAYS: [Way; 13] = [
     way("dies", Outcome::PlannerCrashed, &["exit status: 3", "last words: dies"]),
     way("is-killed", Outcome::PlannerCrashed, &["SIGKILL", "last words: is-killed"]),
-    Way {
-        limits: "call_limit_s = 0.4",
-        ..way("hangs", Outcome::PlannerHung, &["no answer within 0.4 s", "last words: hangs"])
-    },
+    way("hangs", Outcome::PlannerHung, &["no answer within 1.5 s", "last words: hangs"]),
     Way {
         limits: "output_limit_kib = 64",
         ..way("floods", Outcome::PlannerProtocol, &["more than 65536 bytes", "last words: floods"])
     },
     way("out-of-order", Outcome::PlannerProtocol, &["to request number", "last words: out-of"]),
-    Way {
-        limits: "call_limit_s = 0.4",
-        ..way("half-a-line", Outcome::PlannerHung, &["half a line", "last words: half-a-line"])
-    },
+    way("half-a-line", Outcome::PlannerHung, &["half a line", "last words: half-a-line"]),
     way("nan", Outcome::PlannerNonFinite, &[]),
     way("too-fast", Outcome::PlannerOutOfRange, &[]),
     Way {
@@ -153,18 +154,15 @@ const WAYS: [Way; 13] = [
         ..way("memory", Outcome::PlannerCrashed, &["MemoryError"])
     },
     way("forks", Outcome::PlannerCrashed, &["exit status: 5", "last words: forks"]),
-    Way {
-        limits: "call_limit_s = 0.4",
-        ..way("noisy", Outcome::PlannerHung, &["no end in sight"])
-    },
+    way("noisy", Outcome::PlannerHung, &["no end in sight"]),
     Way {
         at_start: true,
         ..way("wrong-version", Outcome::PlannerProtocol, &["speaks protocol 2"])
     },
     Way {
-        limits: "start_limit_s = 0.9",
+        limits: "start_limit_s = 5",
         at_start: true,
-        ..way("slow-start", Outcome::PlannerHung, &["waiting for `hello`: no answer within 0.9 s"])
+        ..way("slow-start", Outcome::PlannerHung, &["waiting for `hello`: no answer within 5 s"])
     },
 ];
 
@@ -193,12 +191,12 @@ fn each_way_to_fail_costs_its_own_encounters_and_is_told_in_its_row() {
     let path = folder.path();
     fs::write(path.join("planner.py"), SCRIPT).unwrap();
     let planner = |act: &str| format!("exec:python3 planner.py {act}");
-    let good = campaign(path, "behaves", &planner("behaves"), "");
+    let good = campaign(path, "behaves", &planner("behaves"), "", 8.0);
     assert!(good.iter().all(|row| !row.outcome.is_planner_failure()));
     assert_eq!(json(path.join("behaves/summary.json"))["ended_by_wall_clock"], 0);
     let mut shares = Vec::new();
     for Way { act, limits, outcome, words, at_start } in WAYS {
-        let bad = campaign(path, act, &planner(act), limits);
+        let bad = campaign(path, act, &planner(act), limits, 8.0);
         let guilty = compare(act, outcome, words, &bad, &good);
         let started = fs::metadata(path.join(format!("processes-{act}"))).unwrap().len() as usize;
         if at_start {
@@ -287,7 +285,7 @@ fn library(folder: &Path, name: &str, act: &str) -> String {
 fn a_library_that_takes_the_engine_with_it_costs_its_own_encounters() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    let good = campaign(path, "good", &library(path, "good", "(void)0"), "");
+    let good = campaign(path, "good", &library(path, "good", "(void)0"), "", 2.0);
     assert!(good.iter().all(|row| !row.outcome.is_planner_failure()));
     for (name, act, outcome, words) in [
         (
@@ -304,7 +302,7 @@ fn a_library_that_takes_the_engine_with_it_costs_its_own_encounters() {
             &["no answer within 2 s", "last words: spins"][..],
         ),
     ] {
-        let bad = campaign(path, name, &library(path, name, act), "");
+        let bad = campaign(path, name, &library(path, name, act), "", 2.0);
         let guilty = compare(name, outcome, words, &bad, &good);
         assert!(guilty > 0 && guilty < 15, "{name}: {guilty}");
     }
