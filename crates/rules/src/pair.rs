@@ -204,6 +204,57 @@ mod tests {
         assert!((centres.dcpa_m(0) - 30.0).abs() < 1e-9);
     }
 
+    /// Close by, where the outlines meet corner to corner and pass while they do: against the
+    /// distance at every tenth of a second to come.
+    #[test]
+    fn predicted_hull_distance_close_by_is_the_smallest_one_met() {
+        for psi_deg in (0..360).step_by(40) {
+            for bearing_deg in (0..360).step_by(24) {
+                let psi_rad = deg(f64::from(psi_deg));
+                let at = geom::unit(deg(f64::from(bearing_deg))) * 38.0;
+                let own = Script::new(ship(30.0, 7.0), 0.0, 0.0, 0.4, 5.0).hold(2.0).track();
+                let target = Script::new(ship(30.0, 12.0), at.x, at.y, psi_rad, 4.0);
+                let target = target.hold(2.0).track();
+                let pair = PairTracks::new(&own, &target, DistanceKind::Hull);
+                let a = own.ship.hull.corners_m(Vec2::zeros(), 0.4);
+                let velocity_mps = target.velocity_mps(0) - own.velocity_mps(0);
+                let met_m = (0..600)
+                    .map(|tenth| at + velocity_mps * (f64::from(tenth) / 10.0))
+                    .map(|at| outline_distance_m(&a, &target.ship.hull.corners_m(at, psi_rad)))
+                    .fold(f64::INFINITY, f64::min);
+                let predicted_m = pair.dcpa_m(0);
+                let said = format!("{psi_deg} {bearing_deg}: {predicted_m}, not {met_m}");
+                assert!(predicted_m <= met_m + 1e-9 && predicted_m > met_m - 1.0, "{said}");
+            }
+        }
+    }
+
+    /// Against the distances from every corner to every side, where no corner lies inside.
+    #[test]
+    fn outlines_that_lie_apart_have_a_distance() {
+        let to_side_m = |p: Vec2, a: Vec2, b: Vec2| {
+            let share = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+            (p - (a + (b - a) * share)).norm()
+        };
+        let least_m = |one: &[Vec2], other: &[Vec2]| {
+            let sides = || (0..other.len()).map(|i| (other[i], other[(i + 1) % other.len()]));
+            let all = one.iter().flat_map(|p| sides().map(|(a, b)| to_side_m(*p, a, b)));
+            all.fold(f64::INFINITY, f64::min)
+        };
+        // farther than the half-lengths on any heading
+        for psi_deg in 0..120 {
+            for bearing_deg in (0..360).step_by(7) {
+                let at = geom::unit(deg(f64::from(bearing_deg))) * 31.0;
+                let a = ship(30.0, 7.0).hull.corners_m(Vec2::zeros(), 0.0);
+                let b = ship(30.0, 12.0).hull.corners_m(at, deg(3.0 * f64::from(psi_deg)));
+                let (found_m, expected_m) =
+                    (outline_distance_m(&a, &b), least_m(&a, &b).min(least_m(&b, &a)));
+                let said = format!("{psi_deg} {bearing_deg}: {found_m}, not {expected_m}");
+                assert!((found_m - expected_m).abs() < 1e-9, "{said}");
+            }
+        }
+    }
+
     proptest! {
         /// An independent way: the distance of two convex outlines in straight motion is a
         /// convex function of time, so a search by thirds finds its minimum.

@@ -278,6 +278,23 @@ mod tests {
         assert!(runs_of(start().turn(1.5, 1.0).hold(60.0)).is_empty());
     }
 
+    /// 15 degrees at a rate too slow for a run; a drift after it is no part of it.
+    #[test]
+    fn a_slow_turn_ends_before_a_drift() {
+        let runs = runs_of(start().turn(15.0, 0.15).turn(3.0, 0.03).hold(60.0));
+        assert_eq!(runs.len(), 1, "{runs:?}");
+        assert!((to_deg(runs[0].size_rad) - 15.0).abs() < 0.6, "{runs:?}");
+        assert!(runs[0].end.abs_diff(140) <= 8, "{runs:?}");
+    }
+
+    /// 12 degrees in 200 s, and never 10 of them in two minutes.
+    #[test]
+    fn a_turn_slower_than_slow_is_none() {
+        assert!(runs_of(start().turn(4.5, 0.09).turn(7.5, 0.05).hold(60.0)).is_empty());
+        let runs = runs_of(start().turn(4.5, 0.09).turn(7.5, 0.083).hold(60.0));
+        assert_eq!(runs.len(), 1, "{runs:?}");
+    }
+
     #[test]
     fn slowing_down_is_a_speed_run() {
         let track = start().speed_to(3.0, 0.2).hold(30.0).track();

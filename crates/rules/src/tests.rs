@@ -3,6 +3,7 @@
 mod dnv_labels;
 mod edge_cases;
 mod laws;
+mod limits;
 mod pinned;
 mod planner_class;
 mod rule_13;

@@ -85,7 +85,7 @@ fn a_way_back_past_the_first_course_is_no_action() {
 /// gave up is measured from before she did.
 #[test]
 fn speed_taken_up_again_is_no_action() {
-    let slow = own(6.0).hold(60.0).speed_to(5.2, 0.02).hold(120.0).speed_to(6.0, 0.2);
+    let slow = own(6.0).hold(60.0).speed_to(5.2, 0.02).hold(70.0).speed_to(6.0, 0.2);
     let judgement = judge(&Scene::new(slow.hold(400.0), target(2400.0, 130.0, 180.0, 6.0)));
     let found = verdict(&judgement, Check::R8Magnitude);
     let x_u = found.evidence.iter().find(|e| e.name == "x_u").unwrap().value;
