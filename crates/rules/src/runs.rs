@@ -207,10 +207,23 @@ mod tests {
     use geom::units::{deg, to_deg};
 
     fn runs_of(script: Script) -> Vec<TurnRun> {
-        let track = script.track();
+        runs_sampled(script, 1)
+    }
+
+    /// With a sample every so many seconds.
+    fn runs_sampled(script: Script, every_s: usize) -> Vec<TurnRun> {
+        let mut track = script.track();
+        for signal in [
+            &mut track.psi_rad,
+            &mut track.vel_north_mps,
+            &mut track.vel_east_mps,
+            &mut track.stw_mps,
+        ] {
+            *signal = signal.iter().copied().step_by(every_s).collect();
+        }
         let (mut own, mut runs) = (OwnSignals::default(), Vec::new());
-        own.fill(&track, None, 1.0, &rules());
-        turn_runs(&own, &track.ship, 1.0, &rules(), &mut runs);
+        own.fill(&track, None, every_s as f64, &rules());
+        turn_runs(&own, &track.ship, every_s as f64, &rules(), &mut runs);
         runs
     }
 
@@ -281,18 +294,22 @@ mod tests {
     /// 15 degrees at a rate too slow for a run; a drift after it is no part of it.
     #[test]
     fn a_slow_turn_ends_before_a_drift() {
-        let runs = runs_of(start().turn(15.0, 0.15).turn(3.0, 0.03).hold(60.0));
-        assert_eq!(runs.len(), 1, "{runs:?}");
-        assert!((to_deg(runs[0].size_rad) - 15.0).abs() < 0.6, "{runs:?}");
-        assert!(runs[0].end.abs_diff(140) <= 8, "{runs:?}");
+        for every_s in [1, 2] {
+            let runs = runs_sampled(start().turn(15.0, 0.15).turn(3.0, 0.03).hold(60.0), every_s);
+            assert_eq!(runs.len(), 1, "{runs:?}");
+            assert!((to_deg(runs[0].size_rad) - 15.0).abs() < 0.6, "{runs:?}");
+            assert!((every_s * runs[0].end).abs_diff(140) <= 8, "{runs:?}");
+        }
     }
 
     /// 12 degrees in 200 s, and never 10 of them in two minutes.
     #[test]
     fn a_turn_slower_than_slow_is_none() {
-        assert!(runs_of(start().turn(4.5, 0.09).turn(7.5, 0.05).hold(60.0)).is_empty());
-        let runs = runs_of(start().turn(4.5, 0.09).turn(7.5, 0.083).hold(60.0));
-        assert_eq!(runs.len(), 1, "{runs:?}");
+        for every_s in [1, 2] {
+            let runs_of = |script: Script| runs_sampled(script.hold(60.0), every_s).len();
+            assert_eq!(runs_of(start().turn(4.5, 0.09).turn(7.5, 0.05)), 0);
+            assert_eq!(runs_of(start().turn(4.5, 0.09).turn(7.5, 0.083)), 1);
+        }
     }
 
     #[test]

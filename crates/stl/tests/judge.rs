@@ -268,6 +268,7 @@ fn a_run_that_ends_before_the_closest_point_is_inconclusive() {
     for check in [Check::Safe, Check::R14, Check::R8Magnitude] {
         let found = finding(&cut, check);
         assert_eq!((found.status, found.rho), (Finding::Inconclusive, None), "{check:?}");
+        assert!(found.antecedent, "{check:?} was put to the test");
     }
     // What is broken already stays broken.
     let port = run(&own().turn(10, -30.0), &[ahead()], 60);
@@ -282,6 +283,13 @@ fn a_sample_that_is_not_a_number_is_inconclusive() {
     for found in judge(&bad, &USV) {
         let decided = matches!(found.status, Finding::Inconclusive | Finding::NotEvaluated);
         assert_eq!(decided, found.target == 0 || found.status == Finding::NotEvaluated);
+    }
+    let mut bad = good.clone();
+    bad.nominal.as_mut().unwrap().targets[1].east_m[9] = f64::NAN;
+    for found in judge(&bad, &USV) {
+        let formula = stl::WITH_FORMULA.contains(&found.check);
+        let expected = if formula { Finding::Inconclusive } else { Finding::NotEvaluated };
+        assert_eq!(found.status, expected, "{found:?}");
     }
     let mut bad = good.clone();
     bad.own.north_m[3] = f64::INFINITY;

@@ -48,9 +48,9 @@ fn a_turn_too_slow_for_the_rate_is_a_run_by_its_size() {
     let there_and_back =
         [(0, 20.0), (20, 20.0), (120, 35.0), (200, 35.0), (300, 20.0), (340, 20.0)];
     expect_runs(&there_and_back, &[(20, 120, 15.0), (200, 300, -15.0)]);
-    // a pause of 6 s is part of the turn, one of 30 s ends it
+    // in the mean a pause of 18 s is one of 6 s: part of the turn; one of 30 s ends it
     let paused = |s: usize| [(0, 0.0), (20, 0.0), (100, 12.0), (100 + s, 12.0), (180 + s, 24.0)];
-    expect_runs(&paused(6), &[(20, 186, 24.0)]);
+    expect_runs(&paused(18), &[(20, 198, 24.0)]);
     expect_runs(&paused(30), &[(20, 100, 12.0), (130, 210, 12.0)]);
     // 9 degrees are no alteration
     expect_runs(&[(0, 0.0), (20, 0.0), (80, 9.0), (200, 9.0)], &[]);
@@ -62,7 +62,7 @@ fn a_run_begins_where_the_heading_is_left_for_good() {
     let found = runs_of(&[(0, 0.0), (26, 0.0), (27, 0.5), (28, 0.0), (38, 30.0), (90, 30.0)]);
     assert_eq!((found.len(), found[0].start), (1, 28), "{found:?}");
     // two turns to port with a short pause, on a heading that is not 0
-    let found = runs_of(&[(0, 50.0), (30, 50.0), (32, 45.0), (38, 45.0), (41, 38.0), (100, 38.0)]);
+    let found = runs_of(&[(0, 50.0), (30, 50.0), (32, 45.0), (41, 45.0), (44, 38.0), (100, 38.0)]);
     assert_eq!((found.len(), found[0].start), (1, 30), "{found:?}");
     assert!((found[0].change - deg(-12.0)).abs() < 1e-9, "{found:?}");
     // turning from the first sample on
@@ -129,6 +129,20 @@ fn a_plan_that_ends_before_the_run_goes_on_as_it_ended() {
     assert_eq!(Deviation::of(&trace, &USV).heading_rad, whole.heading_rad);
 }
 
+/// A yaw of 4 degrees to starboard, the pass predicted clear, on a course that has drifted by 5:
+/// what follows to the other side goes past the first course, and is the action.
+#[test]
+fn an_alteration_past_a_drifted_course_is_the_action() {
+    let mut script = own().turn(60, 4.0).turn(80, -40.0);
+    script.turns.push((2, 0.125, 40));
+    let trace = run(&script, &[Script::straight(1500.0, -140.0, 180.0, 5.0)], 300);
+    let lives = lives(&trace, &USV);
+    let duty = lives[0].in_sight.as_ref().unwrap();
+    let did = Action::of(&Deviation::of(&trace, &USV), &lives, 0, duty, &USV, 1.0);
+    assert_eq!(did.turns.len(), 2, "{did:#?}");
+    assert!(did.side < 0.0, "{did:#?}");
+}
+
 /// After a slow loss of speed: back to the plan is no action, and well past it is one.
 #[test]
 fn faster_than_the_plan_is_an_action() {
@@ -174,20 +188,23 @@ fn head_on_asks_for_nearly_reciprocal_courses() {
 /// point lies, in the hull or outside.
 #[test]
 fn the_short_cut_of_the_prediction_decides_the_same() {
-    for (forward_m, starboard_m) in [(0.0, 0.0), (4.0, 1.0), (12.0, 0.0), (0.0, 5.0), (60.0, 20.0)]
-    {
-        let mut trace = run(&own(), &[Script::straight(400.0, -330.0, 80.0, 4.0)], 120);
-        for track in [&mut trace.own, &mut trace.targets[0]] {
-            track.ship.hull.midships_forward_m = forward_m;
-            track.ship.hull.midships_starboard_m = starboard_m;
-        }
-        let pair = PairSignals::new(&trace.own, &trace.targets[0], DistanceKind::Hull);
-        for k in 0..120 {
-            let predicted_m = pair.predicted_m(k);
-            for limit_m in [0.3, 1.0, 2.0, 20.0, 50.0, 100.0, predicted_m + 0.1, predicted_m - 0.1]
-            {
-                let within = pair.predicted_within(k, limit_m);
-                assert_eq!(within, predicted_m < limit_m, "{k}: {predicted_m} {limit_m}");
+    let points = [(0.0, 0.0), (4.0, 1.0), (20.0, 0.0), (0.0, 6.0), (60.0, 0.0), (60.0, 20.0)];
+    for (forward_m, starboard_m) in points {
+        for psi_deg in (0..360).step_by(45) {
+            let target = Script::straight(400.0, -330.0, f64::from(psi_deg), 4.0);
+            let mut trace = run(&own(), &[target], 60);
+            for track in [&mut trace.own, &mut trace.targets[0]] {
+                track.ship.hull.midships_forward_m = forward_m;
+                track.ship.hull.midships_starboard_m = starboard_m;
+            }
+            let pair = PairSignals::new(&trace.own, &trace.targets[0], DistanceKind::Hull);
+            for k in (0..60).step_by(7) {
+                let predicted_m = pair.predicted_m(k);
+                let near_m = [predicted_m + 0.1, predicted_m - 0.1];
+                for limit_m in [0.3, 1.0, 2.0, 20.0, 50.0, 100.0].into_iter().chain(near_m) {
+                    let within = pair.predicted_within(k, limit_m);
+                    assert_eq!(within, predicted_m < limit_m, "{k}: {predicted_m} {limit_m}");
+                }
             }
         }
     }

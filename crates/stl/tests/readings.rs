@@ -74,13 +74,17 @@ fn the_mean_heading_of_a_stand_on_ship_does_not_see_what_came_later() {
 
 #[test]
 fn turning_in_on_an_overtaken_ship_is_violated_though_she_keeps_clear() {
-    let slow = || Script::straight(400.0, 0.0, 0.0, 2.0);
-    let fast = || Script { speed_mps: 6.0, ..own() }.turn(10, 25.0).turn(74, -25.0);
-    let steady = run(&fast(), &[slow()], 300);
-    assert_eq!(finding(&steady, Check::R13).status, Finding::Holds);
-    let swerve = run(&fast().turn(101, -40.0).turn(118, 40.0), &[slow()], 300);
-    assert_eq!(finding(&swerve, Check::Safe).status, Finding::Holds);
-    assert_eq!(finding(&swerve, Check::R13).status, Finding::Violated);
+    // to the north, and east by south
+    for psi_deg in [0.0, 100.0] {
+        let (sin, cos) = libm::sincos(common::deg(psi_deg));
+        let slow = || Script::straight(400.0 * cos, 400.0 * sin, psi_deg, 2.0);
+        let fast = || Script { psi_deg, speed_mps: 6.0, ..own() }.turn(10, 25.0).turn(74, -25.0);
+        let steady = run(&fast(), &[slow()], 300);
+        assert_eq!(finding(&steady, Check::R13).status, Finding::Holds);
+        let swerve = run(&fast().turn(101, -40.0).turn(118, 40.0), &[slow()], 300);
+        assert_eq!(finding(&swerve, Check::Safe).status, Finding::Holds);
+        assert_eq!(finding(&swerve, Check::R13).status, Finding::Violated);
+    }
 }
 
 /// Turning in counts where the pass becomes closer by it: 30 degrees lead from 26 m ahead of her to
@@ -118,6 +122,25 @@ fn the_way_back_from_a_forced_turn_is_excused() {
     assert_ne!(holds(forced().turn(75, -40.0)), Finding::Violated);
     assert_ne!(holds(forced().turn(75, -10.0)), Finding::Violated);
     assert_eq!(holds(forced().turn(75, 30.0)), Finding::Violated);
+}
+
+/// The same by speed: what she takes up again is excused, and so is what is too small to break the
+/// rule; to slow down once more is her own choice.
+#[test]
+fn the_way_back_from_a_forced_loss_of_speed_is_excused() {
+    let starboard = Script::straight(300.0, 300.0, 270.0, 5.0);
+    let port = Script::straight(750.0, -900.0, 90.0, 5.0);
+    let holds = |then: (usize, f64, usize)| {
+        let mut own = own();
+        own.speeds = vec![(15, -0.5, 5), then];
+        let trace = run(&own, &[starboard.clone(), port.clone()], 300);
+        let duty = lives(&trace, &USV).remove(0).in_sight.unwrap();
+        assert!(duty.end < 72, "{duty:?}");
+        judge(&trace, &USV)[Check::COUNT + Check::R17Hold as usize].status
+    };
+    assert_ne!(holds((75, 0.1, 25)), Finding::Violated);
+    assert_ne!(holds((75, -0.4, 1)), Finding::Violated);
+    assert_eq!(holds((75, -0.5, 3)), Finding::Violated);
 }
 
 #[test]

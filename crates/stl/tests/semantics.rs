@@ -146,6 +146,33 @@ fn empty_windows_have_the_value_of_the_definition() {
 }
 
 #[test]
+fn a_window_without_end_may_begin_later() {
+    let signals = Signals::new(4).with("a", vec![-5.0, 3.0, 1.0, 2.0]);
+    let from_2 = Window { from: 2, to: None };
+    let least = robustness(&always(from_2, above("a", 0.0)), &signals).unwrap();
+    assert!(same(&least, &[1.0, 2.0, f64::INFINITY, f64::INFINITY]), "{least:?}");
+    let most = robustness(&eventually(from_2, above("a", 0.0)), &signals).unwrap();
+    assert!(same(&most, &[2.0, 2.0, f64::NEG_INFINITY, f64::NEG_INFINITY]), "{most:?}");
+}
+
+/// Below, at and above the constant.
+#[test]
+fn strict_and_non_strict_differ_at_equality_only() {
+    let signals = Signals::new(3).with("a", vec![1.0, 2.0, 3.0]);
+    for (op, expected) in [
+        (Comparison::Above, [false, false, true]),
+        (Comparison::AtLeast, [false, true, true]),
+        (Comparison::Below, [true, false, false]),
+        (Comparison::AtMost, [true, true, false]),
+    ] {
+        let predicate = Predicate { signal: "a", op, constant: 2.0, scale: None };
+        let found = [0, 1, 2].map(|t| truth(&Formula::Predicate(predicate), &signals, t).unwrap());
+        assert_eq!(found, expected, "{op:?}");
+    }
+    assert!(signals.is_finite() && !signals.with("b", vec![1.0, f64::NAN, 2.0]).is_finite());
+}
+
+#[test]
 fn an_unknown_signal_is_named() {
     let signals = Signals::new(1).with("range_m", vec![1.0]);
     let error = robustness(&above("b", 0.0), &signals).unwrap_err();
