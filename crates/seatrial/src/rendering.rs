@@ -217,7 +217,8 @@ pub(crate) fn card(plan: &Plan) -> Result<Card, Error> {
         // a report must not depend on where it was written: the folder is the one it stands in
         replay_command: "seatrial replay . {id}".to_owned(),
         resolved,
-        not_claimed: plan.warnings(),
+        // a page has no code marks
+        not_claimed: plan.warnings().iter().map(|w| format!("{}.", w.replace('`', ""))).collect(),
         beside: false,
     })
 }
