@@ -155,9 +155,9 @@ fn forced_in_the_second_in_which_risk_opens() {
 /// A plan that ends before the run goes on as it ended; of what she did, its time is known.
 #[test]
 fn a_plan_may_end_before_the_run() {
-    let meets = |angle_deg: f64, samples: usize| {
+    let meets = |from_s: f64, samples: usize| {
         let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0);
-        let she = she.hold(100.0).turn(angle_deg, 2.0).hold(800.0);
+        let she = she.hold(from_s).turn(-11.0, 22.0).hold(800.0);
         let script = own(8.0).hold(40.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
         let mut trace = Scene::new(script, she).nominal_targets(vec![slow_ahead()]).trace();
         let nominal = trace.nominal.as_mut().unwrap();
@@ -176,12 +176,14 @@ fn a_plan_may_end_before_the_run() {
         }
         judge_by(rules(), &trace)
     };
-    let (whole, short) = (meets(-25.0, 900), meets(-25.0, 200));
+    let (whole, short) = (meets(100.0, 900), meets(100.0, 200));
     for judgement in [&whole, &short] {
         expect(judgement, Check::R13, Fail, "FAIL-13D-FORCED");
     }
     assert_eq!(whole.pairs[0].first_turn_rad, short.pairs[0].first_turn_rad);
-    expect(&meets(-0.1, 200), Check::R13, Pass, "");
+    // off it from the sample at 194 s to the last one at 199 s, and a second less
+    expect(&meets(193.3, 200), Check::R13, Fail, "FAIL-13D-FORCED");
+    expect(&meets(194.3, 200), Check::R13, Pass, "");
 }
 
 /// The run ends in the turn: what it leads to is read at the last sample.
