@@ -5,3 +5,4 @@ mod eprocess;
 mod gate;
 mod generator;
 mod simulation;
+mod values;
