@@ -78,6 +78,20 @@ fn a_run_ends_where_the_rate_does() {
     assert_eq!(ends, [(30, 43), (46, 59)]);
 }
 
+/// A ship that stops in her turn ends the run there.
+#[test]
+fn a_run_ends_where_the_ship_stops() {
+    let heading_rad: Vec<f64> =
+        (0..90_u32).map(|k| deg(3.0 * f64::from(k.clamp(30, 50)))).collect();
+    let runs = |until: usize| {
+        let speed_mps: Vec<f64> = (0..90).map(|k| if k < until { 5.0 } else { 0.1 }).collect();
+        let found = heading_runs(&heading_rad, &speed_mps, deg(0.6), &USV, 1.0);
+        found.iter().map(|run| run.end).collect::<Vec<_>>()
+    };
+    assert!(runs(90)[0] > 50);
+    assert_eq!(runs(40)[0], 40);
+}
+
 /// 0.06 m/s from sample to sample is 0.06 m/s^2 once a second and 0.03 every two seconds.
 #[test]
 fn a_speed_run_is_one_by_its_acceleration() {

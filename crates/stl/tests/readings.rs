@@ -154,6 +154,7 @@ fn fixed_ranges_bind_all_but_the_overtaking_roles() {
     assert_eq!(onset(speed(10.0), Script::straight(3000.0, 0.0, 180.0, 10.0)), Some(56));
     // Overtaking at 11 m/s: 190 s are 2090 m.
     assert_eq!(onset(speed(12.0), Script::straight(2050.0, 0.0, 0.0, 1.0)), Some(0));
+    assert_eq!(onset(speed(1.0), Script::straight(-2050.0, 0.0, 0.0, 12.0)), Some(0));
 }
 
 #[test]

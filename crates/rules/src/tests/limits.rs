@@ -152,6 +152,32 @@ fn forced_in_the_second_in_which_risk_opens() {
     expect(&judged(swung), Check::R13, Fail, "FAIL-13D-FORCED");
 }
 
+/// Off her plan for 3 samples, or for 9, with a sample every two seconds: 5 s are three intervals.
+#[test]
+fn forced_is_held_in_seconds_and_not_in_samples() {
+    let jinks = |hold_s: f64| {
+        let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0).hold(200.0);
+        let she = she.turn(-11.0, 11.0).hold(hold_s).turn(11.0, 11.0).hold(700.0);
+        let script = own(8.0).hold(40.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
+        let plan = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0).hold(1300.0);
+        let mut trace = Scene::new(script, she).nominal_targets(vec![plan]).trace();
+        super::pinned::in_slow_motion(&mut trace);
+        judge_by(rules(), &trace)
+    };
+    expect(&jinks(8.0), Check::R13, Fail, "FAIL-13D-FORCED");
+    expect(&jinks(2.0), Check::R13, Pass, "");
+}
+
+/// Off her plan from the first sample of the run on, with risk open: nothing came before it.
+#[test]
+fn forced_from_the_first_sample_on() {
+    let script = own(8.0).hold(40.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
+    let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, deg(-11.0), 3.0).hold(900.0);
+    let judgement = judge(&Scene::new(script, she).nominal_targets(vec![slow_ahead()]));
+    assert_eq!(judgement.pairs[0].risk_s, Some(0.0));
+    expect(&judgement, Check::R13, Fail, "FAIL-13D-FORCED");
+}
+
 /// A plan that ends before the run goes on as it ended; of what she did, its time is known.
 #[test]
 fn a_plan_may_end_before_the_run() {
@@ -207,7 +233,10 @@ fn a_ship_that_lies_nearly_still_keeps_her_speed() {
         assert_eq!(judgement.pairs[0].role, record::Role::StandOn, "{judgement:#?}");
         verdict(&judgement, Check::R17Hold).clone()
     };
-    assert_ne!(judged(0.3).status, Fail, "{:#?}", judged(0.3));
+    let found = judged(0.3);
+    let x_u = found.evidence.iter().find(|e| e.name == "x_u").unwrap().value;
+    assert_ne!(found.status, Fail, "{found:#?}");
+    assert!(x_u.abs() < 1e-9, "{found:#?}");
 }
 
 #[test]

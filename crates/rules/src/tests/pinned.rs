@@ -179,7 +179,7 @@ fn voyage(dice: &mut Dice) -> Trace {
 }
 
 /// The same way in twice the time, sampled every two seconds.
-fn in_slow_motion(trace: &mut Trace) {
+pub(super) fn in_slow_motion(trace: &mut Trace) {
     trace.sample_s = 2.0;
     trace.end_s *= 2.0;
     let slow = |track: &mut ShipTrack| {
