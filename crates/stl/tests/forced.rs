@@ -42,6 +42,19 @@ fn she_is_forced_off_her_course_from_ten_degrees_and_off_her_speed_from_a_quarte
     }
 }
 
+/// A plan that ends before the run says nothing of what she did after it.
+#[test]
+fn what_she_did_after_her_plan_has_ended_is_her_own() {
+    let altered_at = |from_s: usize| {
+        let mut trace = run(&fast(), &[slow().turn(from_s, -20.0)], 300);
+        let mut planned = run(&fast(), &[slow()], 100).nominal.expect("planned").targets;
+        std::mem::swap(&mut trace.nominal.as_mut().expect("planned").targets, &mut planned);
+        judge(&trace, &USV)[Check::R13 as usize].status
+    };
+    assert_eq!(altered_at(60), Finding::Violated);
+    assert_eq!(altered_at(101), Finding::Holds);
+}
+
 #[test]
 fn what_is_not_held_or_was_done_for_another_is_not_laid_to_own_ship() {
     // off by 12 degrees for 3 s, and for 9
