@@ -2,12 +2,12 @@
 //! worth), sums that are merged, and closed forms worked out by hand or with SciPy's quantiles.
 
 use stats::{
-    BetaBinomial, Bins, Histogram, Margin, MeanBets, Method, PairedCounts, RiskCounts, RiskEvent,
-    RiskPart, RiskSums, WeightedCount, betting_interval, betting_ratio, chi_squared_quantile,
-    clopper_pearson, clopper_pearson_lower, clopper_pearson_upper, encounters_fixed_test,
-    encounters_for_width, exact_difference_upper, exact_ratio, fay_feuer, holm, jeffreys,
-    last_particle, ln_binomial_pmf, pairs_needed, replications, student_t_quantile,
-    unpaired_needed, wilson,
+    BetaBinomial, Bins, Forecast, Histogram, Margin, MeanBets, Method, NonInferiority,
+    PairedCounts, RateTest, RiskCounts, RiskEvent, RiskPart, RiskSums, WeightedCount,
+    betting_interval, betting_ratio, chi_squared_quantile, clopper_pearson, clopper_pearson_lower,
+    clopper_pearson_upper, encounters_fixed_test, encounters_for_width, exact_difference_upper,
+    exact_ratio, fay_feuer, holm, jeffreys, last_particle, ln_binomial_pmf, pairs_needed,
+    replications, student_t_quantile, unpaired_needed, wilson,
 };
 
 #[track_caller]
@@ -191,4 +191,50 @@ fn a_margin_is_scaled_by_its_own_kind() {
 fn a_method_prints_its_name() {
     assert_eq!(Method::ClopperPearson.to_string(), "Clopper-Pearson");
     assert_eq!(Method::Replications.to_string(), "t over replications");
+}
+
+/// The level is reached about where the forecast says, if it goes on at the rates seen so far (half
+/// an event added to each).
+#[test]
+fn a_forecast_comes_about() {
+    let more = |forecast: Forecast| match forecast {
+        Forecast::Encounters(more) => more,
+        other => panic!("{other:?}"),
+    };
+    let about = |ln_e: f64, alpha: f64| {
+        let ratio = -ln_e / libm::log(alpha);
+        assert!((ratio - 1.0).abs() < 0.08, "{ln_e}");
+    };
+    let rate = RateTest::demonstrated(0.02).unwrap();
+    let n = 400 + more(rate.forecast(2, 400, 0.001).unwrap());
+    about(rate.ln_e(n * 5 / 802, n).unwrap(), 0.001);
+    let counts = PairedCounts { n11: 300, n10: 10, n01: 20, n00: 7670 };
+    let share = |n: u64, half_events: u64| n * half_events / 16_002;
+    for (test, alpha) in [
+        (NonInferiority::absolute(0.001, 0.004).unwrap(), 1e-9),
+        (NonInferiority::relative(0.05, 0.04, 0.004).unwrap(), 1e-9),
+    ] {
+        let n = 8000 + more(test.forecast(&counts, alpha));
+        let (n11, n10, n01) = (share(n, 600), share(n, 21), share(n, 41));
+        let then = PairedCounts { n11, n10, n01, n00: n - n11 - n10 - n01 };
+        about(test.ln_e(&then), alpha);
+    }
+}
+
+/// The planned numbers are where the wealth reaches the level; and as they were.
+#[test]
+fn the_planned_encounters_reach_the_level() {
+    let absolute = NonInferiority::absolute(0.01, 0.004).unwrap();
+    let relative = NonInferiority::relative(0.2, 0.05, 0.004).unwrap();
+    let planned = [&absolute, &relative].map(|test| test.encounters_planned(0.001).unwrap());
+    let still = [&absolute, &relative].map(|test| test.encounters_undisturbed(0.001).unwrap());
+    assert_eq!((planned, still), ([1975, 2131], [726, 801]));
+    let about = |ln_e: f64| assert!((ln_e / libm::log(1000.0) - 1.0).abs() < 0.03, "{ln_e}");
+    about(absolute.ln_e(&PairedCounts { n11: 0, n10: 4, n01: 4, n00: 1967 }));
+    about(absolute.ln_e(&PairedCounts { n11: 0, n10: 0, n01: 0, n00: 726 }));
+    about(relative.ln_e(&PairedCounts { n11: 102, n10: 4, n01: 4, n00: 2021 }));
+    about(relative.ln_e(&PairedCounts { n11: 40, n10: 0, n01: 0, n00: 761 }));
+    // fixes cannot be planned above the planned rate
+    assert!(NonInferiority::relative(0.2, 0.05, 0.09).is_ok());
+    assert!(NonInferiority::relative(0.2, 0.05, 0.11).is_err());
 }
