@@ -10,8 +10,9 @@ use sim::{Escapes, Evasions, Manoeuvre, Side};
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicU64;
 
-/// The smallest hull distance of a run in which own ship does what a manoeuvre says, metres.
-fn sailed_m(encounter: &Encounter, manoeuvre: Manoeuvre, at_s: f64) -> f64 {
+/// The smallest hull distance of a run in which own ship does what a manoeuvre says, metres, and
+/// whether the ships still came nearer when it ended.
+fn sailed(encounter: &Encounter, manoeuvre: Manoeuvre, at_s: f64) -> (f64, bool) {
     let sign = if manoeuvre.side() == Some(Side::Port) { -1.0 } else { 1.0 };
     let (course_rad, speed_mps) = match manoeuvre {
         Manoeuvre::QuarterTurn(_) => (deg(90.0), 7.0),
@@ -25,7 +26,9 @@ fn sailed_m(encounter: &Encounter, manoeuvre: Manoeuvre, at_s: f64) -> f64 {
         orders.push((at_s + 7.0, sign * PI, 7.0));
     }
     let mut orders = Orders(orders);
-    run(encounter, &mut orders).pairs[0].minimum.hull_m
+    let trace = run(encounter, &mut orders);
+    let minimum = trace.pairs[0].minimum;
+    (minimum.hull_m, minimum.hull_s >= trace.end_s - encounter.run.beat_s)
 }
 
 /// The smallest hull distance of a fork, metres, by bisection of what it clears.
@@ -51,11 +54,12 @@ fn fork_is_the_run(meeting: &Meeting, own: Vessel, instant: usize, manoeuvre: Ma
     let mut escapes = Escapes::new(&encounter, &nominal).expect("both have models");
     let instant = instant.min(escapes.instants(0) - 1);
     let forked_m = forked_m(&mut escapes, manoeuvre, instant);
-    let sailed_m = sailed_m(&encounter, manoeuvre, escapes.time_s(instant));
+    let (sailed_m, nearing) = sailed(&encounter, manoeuvre, escapes.time_s(instant));
     // what is left of a heading and a speed when they count as reached
     let tolerance_m = 0.1 + 0.001 * sailed_m;
+    // a fork goes on for ever: nearly the same velocity brings the closest point after the run
     assert!(
-        (forked_m - sailed_m).abs() < tolerance_m,
+        (forked_m - sailed_m).abs() < tolerance_m || nearing && forked_m < sailed_m,
         "{manoeuvre:?} at {instant}: {forked_m} m, sailed {sailed_m} m"
     );
 }
@@ -111,8 +115,9 @@ proptest! {
         let forked_m = forked_m(&mut escapes, manoeuvre, instant);
         // where they differ the hulls graze: what is left of a heading and a speed decides
         if clears != (forked_m > 0.0) {
-            let sailed_m = sailed_m(&encounter, manoeuvre, escapes.time_s(instant));
-            prop_assert!(forked_m < 0.3 && sailed_m < 0.3, "{} {}: {}", clears, forked_m, sailed_m);
+            let (sailed_m, nearing) = sailed(&encounter, manoeuvre, escapes.time_s(instant));
+            let graze = forked_m < 0.3 && (sailed_m < 0.3 || nearing);
+            prop_assert!(graze, "{} {}: {}", clears, forked_m, sailed_m);
         }
     }
 
