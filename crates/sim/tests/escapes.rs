@@ -77,13 +77,7 @@ proptest! {
         course in -3.1f64..3.1, speed in 2f64..11.0, length in 8f64..100.0, miss in -60f64..60.0,
         instant in 60usize..150, manoeuvre in manoeuvres(), inertia in any::<bool>(),
     ) {
-        let meeting = Meeting {
-            target_course_rad: course,
-            target_mps: speed,
-            target_length_m: length,
-            miss_m: miss,
-            ..Meeting::default()
-        };
+        let meeting = meeting_with(course, speed, length, miss);
         prop_assume!(meeting_is_apart(&meeting));
         fork_is_the_run(&meeting, if inertia { viknes() } else { kinematic() }, instant, manoeuvre);
     }
@@ -94,13 +88,7 @@ proptest! {
         course in -3.1f64..3.1, speed in 2f64..11.0, length in 8f64..100.0, miss in -60f64..60.0,
         instant in 60usize..150, manoeuvre in manoeuvres(), inertia in any::<bool>(),
     ) {
-        let meeting = Meeting {
-            target_course_rad: course,
-            target_mps: speed,
-            target_length_m: length,
-            miss_m: miss,
-            ..Meeting::default()
-        };
+        let meeting = meeting_with(course, speed, length, miss);
         prop_assume!(meeting_is_apart(&meeting));
         let own = if inertia { viknes() } else { kinematic() };
         let encounter = meeting.encounter(own, kinematic());
@@ -153,6 +141,16 @@ proptest! {
 }
 
 /// Far enough apart at the start to begin.
+fn meeting_with(course_rad: f64, speed_mps: f64, length_m: f64, miss_m: f64) -> Meeting {
+    Meeting {
+        target_course_rad: course_rad,
+        target_mps: speed_mps,
+        target_length_m: length_m,
+        miss_m,
+        ..Meeting::default()
+    }
+}
+
 fn meeting_is_apart(meeting: &Meeting) -> bool {
     let encounter = meeting.encounter(viknes(), kinematic());
     sim::check(&encounter).is_ok()
