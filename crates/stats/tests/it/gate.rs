@@ -9,7 +9,7 @@ use stats::{
 
 const STRATA: usize = 4;
 
-fn plan(metrics: usize, margin: f64, cap: u64) -> GatePlan {
+pub(crate) fn plan(metrics: usize, margin: f64, cap: u64) -> GatePlan {
     let metric = |i| MetricPlan {
         name: format!("metric_{i}"),
         margin: Margin::Absolute { difference: margin },
@@ -29,7 +29,7 @@ fn plan(metrics: usize, margin: f64, cap: u64) -> GatePlan {
     }
 }
 
-fn quiet(id: u64, metrics: usize) -> PairRow {
+pub(crate) fn quiet(id: u64, metrics: usize) -> PairRow {
     PairRow {
         id,
         stratum: id as usize % STRATA,
@@ -40,7 +40,7 @@ fn quiet(id: u64, metrics: usize) -> PairRow {
 }
 
 /// Feeds rows made by `row` in blocks of 640 until a verdict falls.
-fn run(gate: &mut Gate, mut row: impl FnMut(u64) -> PairRow) -> GateVerdict {
+pub(crate) fn run(gate: &mut Gate, mut row: impl FnMut(u64) -> PairRow) -> GateVerdict {
     loop {
         let first = gate.next_id();
         let rows: Vec<PairRow> = (first..first + 640).map(&mut row).collect();
@@ -274,7 +274,7 @@ fn a_broken_corpus_fails_before_any_statistics() {
     assert_eq!(run(&mut waived, |id| quiet(id, 1)), GateVerdict::Pass);
 }
 
-fn with_absolute(rate_max: f64, test: AbsoluteTest, cap: u64) -> GatePlan {
+pub(crate) fn with_absolute(rate_max: f64, test: AbsoluteTest, cap: u64) -> GatePlan {
     let mut plan = plan(1, 1e-2, cap);
     plan.absolutes.push(AbsolutePlan {
         name: "collision in stratum 2".into(),

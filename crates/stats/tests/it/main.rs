@@ -3,6 +3,7 @@
 mod coverage;
 mod eprocess;
 mod gate;
+mod gate_answers;
 mod generator;
 mod simulation;
 mod values;
