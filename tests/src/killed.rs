@@ -3,10 +3,23 @@
 use crate::support::{assert_same_result, run_err, run_ok, seatrial};
 use std::path::Path;
 use std::process::Stdio;
+use std::sync::OnceLock;
 use std::time::Duration;
+use tempfile::TempDir;
 
 const CAMPAIGN: &str =
     "campaign laboratory --encounters 510 --threads 2 --quiet --planner hold-course";
+
+/// The campaign as it is when nobody stops it.
+fn straight() -> &'static Path {
+    static STRAIGHT: OnceLock<TempDir> = OnceLock::new();
+    let folder = STRAIGHT.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        run_ok(folder.path(), &format!("{CAMPAIGN} --out ."));
+        folder
+    });
+    folder.path()
+}
 
 /// Waits until at least `parts` parts are there.
 fn wait_for_parts(result: &Path, parts: usize) {
@@ -27,7 +40,6 @@ fn wait_for_parts(result: &Path, parts: usize) {
 #[test]
 fn a_campaign_killed_and_resumed_ends_as_one_never_stopped() {
     let folder = tempfile::tempdir().unwrap();
-    run_ok(folder.path(), &format!("{CAMPAIGN} --out straight"));
     let mut child = seatrial(folder.path())
         .args(CAMPAIGN.split_whitespace())
         .args(["--out", "killed"])
@@ -42,7 +54,7 @@ fn a_campaign_killed_and_resumed_ends_as_one_never_stopped() {
     let said = run_err(folder.path(), &format!("{CAMPAIGN} --out killed"), 2);
     assert!(said.contains("--resume"), "{said}");
     run_ok(folder.path(), &format!("{CAMPAIGN} --out killed --resume"));
-    assert_same_result(&folder.path().join("straight"), &folder.path().join("killed"));
+    assert_same_result(straight(), &folder.path().join("killed"));
 }
 
 /// Interrupts a command when `moment` has come; what it says, once it has ended with 3.
@@ -69,8 +81,6 @@ fn interrupt(folder: &Path, line: &str, moment: impl Fn() -> bool) -> String {
 #[test]
 fn an_interrupt_leaves_a_resumable_state_and_says_how() {
     let folder = tempfile::tempdir().unwrap();
-    run_ok(folder.path(), &format!("{CAMPAIGN} --out straight"));
-    let straight = folder.path().join("straight");
     // while encounters are run, and while the table is made of them
     for (out, file) in [("parts", "state/parts/0000-00000000.part"), ("table", TABLE)] {
         let there = folder.path().join(out);
@@ -79,7 +89,7 @@ fn an_interrupt_leaves_a_resumable_state_and_says_how() {
         assert!(said.contains("--resume"), "{said}");
         assert!(!there.join("manifest.json").exists(), "it passes for a finished one");
         run_ok(folder.path(), &format!("{line} --resume"));
-        assert_same_result(&straight, &there);
+        assert_same_result(straight(), &there);
     }
 }
 
