@@ -130,8 +130,8 @@ impl<'a> Worker<'a> {
     ) -> Result<Run, Error> {
         let peers = &mut |name: &str| self.shop.peer(name);
         let (planner, scratch) = (self.planner.as_mut(), &mut self.scratch);
-        let mut trace = sim::run_among(&encounter, planner, peers, scratch, beat);
-        trace.nominal = sim::nominal(&encounter);
+        let voyage = sim::voyage(&encounter, planner, peers, scratch, beat);
+        let mut trace = voyage.into_trace(&encounter);
         if trace.outcome.is_planner_failure() {
             self.planner = self.shop.planner()?;
         }

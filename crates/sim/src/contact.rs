@@ -8,6 +8,8 @@
 
 use crate::hull::{Gap, Hull, Warm, rapier_pose, vector};
 use crate::pose::Pose;
+use crate::ship::Ship;
+use crate::vessel::Model;
 use geom::{HullOutline, Vec2};
 use rapier2d_f64::prelude::{
     ColliderBuilder, IntegrationParameters, MassProperties, PhysicsWorld, RigidBodyBuilder,
@@ -45,6 +47,16 @@ const DRAUGHT_PER_BEAM: f64 = 1.0 / 3.0;
 const GYRATION_PER_LENGTH: f64 = 0.25;
 
 impl Inertia {
+    /// What a ship weighs in a contact: her model's displacement, or an estimate from her hull.
+    pub(crate) fn of(ship: &Ship) -> Self {
+        match ship.model {
+            Model::ThreeDof(model) => {
+                Self { mass_kg: model.displacement_kg, yaw_kgm2: model.inertia_kgm2 }
+            }
+            Model::Kinematic(_) | Model::Nomoto(_) => Self::of_outline(&ship.outline),
+        }
+    }
+
     /// An estimate from the dimensions of the hull; right to a factor of two or three, which is
     /// what impulse and energy of such a contact are worth.
     pub fn of_outline(hull: &HullOutline) -> Self {

@@ -118,6 +118,11 @@ impl Duty {
         ship.steer(Helm::over_ground(course_rad, self.speed_mps, ship.current_mps()), t_s);
     }
 
+    /// Whether she does anything but keep her course because of own ship.
+    pub(crate) fn has_reacted(&self) -> bool {
+        self.phase != Phase::Keeping
+    }
+
     fn decide(&mut self, ship: &Ship, t_s: f64, own: &Pose) {
         let offset_m = own.position_m - ship.pose.position_m;
         let relative_mps = own.velocity_mps - ship.pose.velocity_mps;

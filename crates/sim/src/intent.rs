@@ -95,6 +95,14 @@ impl Script {
             Self::Duty(duty) => duty.steer(ship, t_s, own),
         }
     }
+
+    /// Whether own ship has made her do what she would not have done by herself.
+    pub(crate) fn has_reacted(&self) -> bool {
+        match self {
+            Self::Duty(duty) => duty.has_reacted(),
+            Self::Hold | Self::Alter { .. } | Self::Follow(_) | Self::Turns { .. } => false,
+        }
+    }
 }
 
 /// Two directions nearer than this are the same, rad: a goal that was placed ahead of a ship is

@@ -11,6 +11,7 @@ use crate::intent::{Route, Script};
 use crate::interval::{Hulls, Interval};
 use crate::recorder;
 use crate::ship::Ship;
+use crate::voyage::{Left, Wake};
 use crate::weather::Environment;
 use record::{Encounter, Nominal, ShipTrack};
 
@@ -20,25 +21,40 @@ use record::{Encounter, Nominal, ShipTrack};
 /// or at the longest duration; that does not depend on any planner.
 pub fn nominal(encounter: &Encounter) -> Option<Nominal> {
     check(encounter).ok()?;
-    let environment = Environment::new(encounter);
+    Some(begin(encounter, Environment::new(encounter), encounter.targets.iter().map(|_| None)))
+}
+
+/// The same from what is left of a run of this encounter, whose targets have these tracks.
+pub(crate) fn after(encounter: &Encounter, left: Left, tracks: &[ShipTrack]) -> Nominal {
+    let Left { mut environment, wakes } = left;
+    environment.rewind();
+    begin(encounter, environment, wakes.into_iter().zip(tracks).map(Some))
+}
+
+fn begin<'a>(
+    encounter: &Encounter,
+    environment: Environment,
+    wakes: impl Iterator<Item = Option<(Wake, &'a ShipTrack)>>,
+) -> Nominal {
     let (own_ship, ships) = environment.ships(encounter).expect("the encounter was checked");
     let mut route = Route::new(&own_ship, &encounter.own.route, encounter.own.cruise_mps);
     if !environment.is_steady() {
         route = route.in_weather();
     }
     let room = samples(encounter);
-    let own = Sailor::new(own_ship, Script::Follow(route), room);
+    let own = Sailor::new(own_ship, Script::Follow(route), None, room);
     let targets = encounter
         .targets
         .iter()
         .zip(ships)
-        .map(|(target, ship)| {
+        .zip(wakes)
+        .map(|((target, ship), wake)| {
             let script =
                 Script::of(&target.intent, &ship, target.start.speed_mps, encounter.visibility);
-            Sailor::new(ship, script, room)
+            Sailor::new(ship, script, wake, room)
         })
         .collect();
-    Some(sail(encounter, environment, own, targets))
+    sail(encounter, environment, own, targets)
 }
 
 fn samples(encounter: &Encounter) -> usize {
@@ -46,25 +62,51 @@ fn samples(encounter: &Encounter) -> usize {
 }
 
 /// A ship with her script and her track.
-struct Sailor {
+struct Sailor<'a> {
     ship: Ship,
     script: Script,
     track: ShipTrack,
+    /// What a run found already, and the samples of it, as long as it lasts.
+    wake: Option<(Wake, &'a ShipTrack)>,
 }
 
-impl Sailor {
-    fn new(mut ship: Ship, script: Script, room: usize) -> Self {
+impl<'a> Sailor<'a> {
+    fn new(
+        mut ship: Ship,
+        script: Script,
+        wake: Option<(Wake, &'a ShipTrack)>,
+        room: usize,
+    ) -> Self {
         ship.closed_form = true;
         let track = recorder::track_of(&ship, room);
-        Self { ship, script, track }
+        Self { ship, script, track, wake }
     }
 
-    fn sample(&mut self) {
+    /// Puts her into the weather of a beat, as ship `number`, and takes a sample.
+    fn sample(&mut self, number: usize, environment: &Environment) {
+        if let Some((wake, track)) = &self.wake {
+            let k = self.track.len();
+            if let Some([pose, _]) = wake.beat(k) {
+                self.ship.pose = pose;
+                recorder::copy(&mut self.track, track, k);
+                return;
+            }
+        }
+        if let Some((wake, _)) = self.wake.take() {
+            (self.ship, self.script) = wake.after();
+        }
+        environment.apply(number, &mut self.ship);
         recorder::sample(&mut self.track, &self.ship.state, self.ship.pose.velocity_mps);
     }
 
     /// Goes through the beat that starts at step `step`.
     fn advance(&mut self, step: u64, steps_a_beat: u64, step_s: f64) {
+        if let Some((wake, _)) = &self.wake
+            && let Some(poses) = wake.beat(self.track.len() - 1)
+        {
+            [self.ship.before, self.ship.pose] = poses;
+            return;
+        }
         self.script.steer(&mut self.ship, step as f64 * step_s, None);
         let before = self.ship.pose;
         if self.ship.is_straight() {
@@ -82,8 +124,8 @@ impl Sailor {
 fn sail(
     encounter: &Encounter,
     mut environment: Environment,
-    mut own: Sailor,
-    mut targets: Vec<Sailor>,
+    mut own: Sailor<'_>,
+    mut targets: Vec<Sailor<'_>>,
 ) -> Nominal {
     let run = encounter.run;
     let steps_a_beat = (run.beat_s / run.step_s).round() as u64;
@@ -100,12 +142,10 @@ fn sail(
     loop {
         let t_s = step as f64 * run.step_s;
         environment.advance();
-        environment.apply(0, &mut own.ship);
+        own.sample(0, &environment);
         for (target, number) in targets.iter_mut().zip(1..) {
-            environment.apply(number, &mut target.ship);
+            target.sample(number, &environment);
         }
-        own.sample();
-        targets.iter_mut().for_each(Sailor::sample);
         for (bounds_m, approach) in bounds_m.iter_mut().zip(&mut approaches) {
             bounds_m.push(approach.take_interval_m());
         }
@@ -139,6 +179,6 @@ fn sail(
     Nominal { own: own.track, targets: targets.into_iter().map(|t| t.track).collect(), minima }
 }
 
-fn hulls<'a>(own: &'a Sailor, target: &'a Sailor) -> Hulls<'a> {
+fn hulls<'a>(own: &'a Sailor<'_>, target: &'a Sailor<'_>) -> Hulls<'a> {
     Hulls { own: &own.ship.hull, target: &target.ship.hull }
 }

@@ -90,6 +90,16 @@ impl Ship {
         }
     }
 
+    /// The order that she carries out.
+    pub(crate) fn helm(&self) -> Helm {
+        self.helm
+    }
+
+    /// The same ship carrying out another order. In weather only, where no closed form hangs on it.
+    pub(crate) fn with_helm(self, helm: Helm) -> Self {
+        Self { helm, ..self }
+    }
+
     /// Keeps the heading and speed that she has.
     pub fn hold(&mut self, t_s: f64) {
         let State { psi_rad, heading, surge_mps, .. } = self.state;

@@ -3,7 +3,8 @@
 //! First-order Gauss-Markov processes in their exact discretisation (Gillespie 1996, Physical
 //! Review E 54), started from their stationary law. Current and gusts are the same for all ships
 //! and come from the environment stream of ship 0; waves are each ship's own. Nothing depends on
-//! what a ship does but the leeway, which goes with her heading and speed.
+//! what a ship does but the leeway, which goes with her heading and speed; so what was drawn for a
+//! run is kept, and the nominal track goes through it again ([`Environment::rewind`]).
 
 use crate::ship::{Disturbance, Ship};
 use crate::vessel::{Helm, Model};
@@ -19,6 +20,11 @@ pub struct Environment {
     current_off: [Process; 2],
     gust: Process,
     seas: Vec<Sea>,
+    /// What was drawn, beat after beat: current north and east and gust, then of each of the seas
+    /// drift north and east and yaw.
+    drawn: Vec<[f64; 3]>,
+    /// Beats begun since the start or since it was rewound.
+    beats: usize,
 }
 
 /// The waves of one ship.
@@ -55,10 +61,6 @@ impl Process {
         self.value = Some(value);
         value
     }
-
-    fn value(&self) -> f64 {
-        self.value.unwrap_or(0.0)
-    }
 }
 
 impl Environment {
@@ -94,6 +96,8 @@ impl Environment {
             current_off: [current; 2],
             gust,
             seas: seas.collect(),
+            drawn: Vec::new(),
+            beats: 0,
             weather,
         }
     }
@@ -108,16 +112,27 @@ impl Environment {
         if self.steady {
             return;
         }
-        for process in &mut self.current_off {
-            process.next(&mut self.common);
+        self.beats += 1;
+        if self.drawn.len() >= self.beats * (1 + self.seas.len()) {
+            return;
         }
-        self.gust.next(&mut self.common);
-        for sea in &mut self.seas {
-            for process in &mut sea.drift {
-                process.next(&mut sea.stream);
-            }
-            sea.yaw.next(&mut sea.stream);
+        let Self { common, current_off: [north, east], gust, seas, drawn, .. } = self;
+        drawn.push([north.next(common), east.next(common), gust.next(common)]);
+        for Sea { stream, drift: [north, east], yaw, .. } in seas {
+            drawn.push([north.next(stream), east.next(stream), yaw.next(stream)]);
         }
+    }
+
+    /// Goes back to before the first beat. What comes is what came, and new draws beyond it.
+    pub(crate) fn rewind(&mut self) {
+        self.beats = 0;
+    }
+
+    /// What was drawn for this beat: 0 is current and gust, `1 + i` the sea of ship `i`.
+    fn now(&self, index: usize) -> [f64; 3] {
+        // before the first beat nothing blows
+        let Some(beat) = self.beats.checked_sub(1) else { return [0.0; 3] };
+        self.drawn[beat * (1 + self.seas.len()) + index]
     }
 
     /// Puts a ship into the weather of this beat: own ship is number 0, target `i` is `1 + i`.
@@ -128,15 +143,16 @@ impl Environment {
         let way = Way { heading: ship.state.heading, ahead_mps: ship.state.surge_mps };
         let leeway_mps = self.leeway_mps(&ship.model, way, 0.0);
         let known_mps = self.known_mps(number, leeway_mps);
-        let mut drift_mps = Vec2::new(self.current_off[0].value(), self.current_off[1].value());
+        let [north_mps, east_mps, gust_mps] = self.now(0);
+        let mut drift_mps = Vec2::new(north_mps, east_mps);
         let mut yaw_rate_radps = 0.0;
-        let gust_mps = self.gust.value();
         if gust_mps.abs() > 0.0 {
             drift_mps += self.leeway_mps(&ship.model, way, gust_mps) - leeway_mps;
         }
         if let Some(sea) = self.seas.get(number) {
-            drift_mps += Vec2::new(sea.drift[0].value(), sea.drift[1].value()) * sea.share;
-            yaw_rate_radps = sea.yaw.value() * sea.share;
+            let [north_mps, east_mps, yaw_radps] = self.now(1 + number);
+            drift_mps += Vec2::new(north_mps, east_mps) * sea.share;
+            yaw_rate_radps = yaw_radps * sea.share;
         }
         drift_mps += known_mps;
         ship.disturb(Disturbance { known_mps, drift_mps, yaw_rate_radps });

@@ -16,7 +16,8 @@ use crate::pose::Pose;
 use crate::recorder;
 use crate::sensing::{Sensors, own_state};
 use crate::ship::Ship;
-use crate::vessel::{Helm, Model};
+use crate::vessel::Helm;
+use crate::voyage::{Left, Voyage, Wakes};
 use crate::weather::Environment;
 use planner_api::{CommandError, Planner, Situation, TargetTrack};
 use record::{
@@ -58,12 +59,34 @@ pub fn run_among(
     scratch: &mut Scratch,
     beat: &AtomicU64,
 ) -> Trace {
+    go(encounter, planner, peers, (scratch, beat), false).trace
+}
+
+/// As [`run_among`], and it keeps what the nominal track can take from the run.
+pub fn voyage(
+    encounter: &Encounter,
+    planner: &mut dyn Planner,
+    peers: &mut MakePeer<'_>,
+    scratch: &mut Scratch,
+    beat: &AtomicU64,
+) -> Voyage {
+    go(encounter, planner, peers, (scratch, beat), true)
+}
+
+fn go(
+    encounter: &Encounter,
+    planner: &mut dyn Planner,
+    peers: &mut MakePeer<'_>,
+    (scratch, beat): (&mut Scratch, &AtomicU64),
+    keeps_wakes: bool,
+) -> Voyage {
+    let not_run = || Voyage { trace: recorder::not_run(encounter), left: None };
     if check(encounter).is_err() {
-        return recorder::not_run(encounter);
+        return not_run();
     }
-    let mut world = World::new(encounter);
+    let mut world = World::new(encounter, keeps_wakes);
     if !world.board_peers(peers) {
-        return recorder::not_run(encounter);
+        return not_run();
     }
     let mission = mission(encounter, &world.own);
     let mut pilot = Pilot { planner, beat, mission, last_words: None };
@@ -72,8 +95,8 @@ pub fn run_among(
     pilot.last_words = None;
     let (outcome, end_s) = world.sail(&mut pilot, scratch);
     let planner_detail = pilot.last_words.take();
-    let trace = world.into_trace(outcome, end_s, pilot.events());
-    Trace { planner_detail, planner_sector, ..trace }
+    let (trace, left) = world.into_trace(outcome, end_s, pilot.events());
+    Voyage { trace: Trace { planner_detail, planner_sector, ..trace }, left }
 }
 
 /// Below this lower bound every hull distance of a trace is exact, metres: beyond what any rule
@@ -91,6 +114,7 @@ struct World<'a> {
     sensors: Sensors,
     ending: Ending,
     environment: Environment,
+    wakes: Wakes,
     hazards: Hazards,
     own_track: ShipTrack,
     target_tracks: Vec<ShipTrack>,
@@ -101,7 +125,7 @@ struct World<'a> {
 }
 
 impl<'a> World<'a> {
-    fn new(encounter: &'a Encounter) -> Self {
+    fn new(encounter: &'a Encounter, keeps_wakes: bool) -> Self {
         let environment = Environment::new(encounter);
         let (own, targets) = environment.ships(encounter).expect("the encounter was checked");
         let scripts = encounter.targets.iter().zip(&targets).map(|(target, ship)| {
@@ -114,8 +138,10 @@ impl<'a> World<'a> {
         });
         let run = &encounter.run;
         let room = (run.duration_s_max / run.beat_s) as usize + 2;
+        let followed = keeps_wakes && !environment.is_steady();
         Self {
             encounter,
+            wakes: if followed { Wakes::new(targets.len(), room) } else { Wakes::default() },
             scripts: scripts.collect(),
             peers: Vec::new(),
             approaches: approaches.collect(),
@@ -144,14 +170,20 @@ impl<'a> World<'a> {
                 return false;
             }
             self.peers.push((index, peer));
+            // without her planner she keeps her course
+            self.wakes.close(index, || (self.targets[index].clone(), self.scripts[index].clone()));
         }
         true
     }
 
     /// Orders of the targets for this beat; whether every one could be carried out.
     fn steer_targets(&mut self, t_s: f64, beat: &AtomicU64) -> bool {
-        for (script, target) in self.scripts.iter_mut().zip(&mut self.targets) {
+        for (index, target) in self.targets.iter_mut().enumerate() {
+            let (script, helm) = (&mut self.scripts[index], target.helm());
             script.steer(target, t_s, Some(&self.own.pose));
+            if script.has_reacted() {
+                self.wakes.close(index, || (target.clone().with_helm(helm), script.clone()));
+            }
         }
         // an order moves nobody before all have theirs
         for (index, peer) in &mut self.peers {
@@ -192,8 +224,10 @@ impl<'a> World<'a> {
             if !self.steer_targets(t_s, pilot.beat) {
                 return (Outcome::Invalid, t_s);
             }
-            for _ in 0..steps_a_beat {
+            self.wakes.begin(&self.targets);
+            for left in (0..steps_a_beat).rev() {
                 if let Some(contact) = self.step(step) {
+                    self.wakes.finish(&mut self.targets, step + 1..=step + left, run.step_s);
                     self.contact = Some(contact);
                     let outcome = match contact.with {
                         ContactWith::Target(_) => Outcome::Collision,
@@ -203,6 +237,7 @@ impl<'a> World<'a> {
                 }
                 step += 1;
             }
+            self.wakes.end(&self.targets);
         }
     }
 
@@ -299,7 +334,7 @@ impl<'a> World<'a> {
     fn grounding(&self, start_s: f64, dt_s: f64, touch: &Touch) -> Contact {
         let own = &self.own;
         let pose = Pose::between(&own.before, &own.pose, dt_s, touch.fraction);
-        let impact = self.hazards.impact(touch, &own.hull, pose, inertia(own));
+        let impact = self.hazards.impact(touch, &own.hull, pose, Inertia::of(own));
         Contact {
             t_s: start_s + touch.fraction * dt_s,
             with: ContactWith::Hazard(touch.hazard),
@@ -312,8 +347,9 @@ impl<'a> World<'a> {
     fn contact(&self, start_s: f64, dt_s: f64, fraction: f64, index: usize) -> Contact {
         let target = &self.targets[index];
         let at = |ship: &Ship| Pose::between(&ship.before, &ship.pose, dt_s, fraction);
-        let own = Party { hull: &self.own.hull, pose: at(&self.own), inertia: inertia(&self.own) };
-        let other = Party { hull: &target.hull, pose: at(target), inertia: inertia(target) };
+        let own =
+            Party { hull: &self.own.hull, pose: at(&self.own), inertia: Inertia::of(&self.own) };
+        let other = Party { hull: &target.hull, pose: at(target), inertia: Inertia::of(target) };
         let impact = collide(&own, &other).impact;
         Contact {
             t_s: start_s + fraction * dt_s,
@@ -324,7 +360,12 @@ impl<'a> World<'a> {
         }
     }
 
-    fn into_trace(mut self, outcome: Outcome, end_s: f64, events: PlannerEvents) -> Trace {
+    fn into_trace(
+        mut self,
+        outcome: Outcome,
+        end_s: f64,
+        events: PlannerEvents,
+    ) -> (Trace, Option<Left>) {
         let sample_s = self.encounter.run.beat_s;
         let mut pairs = Vec::with_capacity(self.targets.len());
         for (index, target) in self.targets.iter().enumerate() {
@@ -336,7 +377,9 @@ impl<'a> World<'a> {
             let (detected_s, tracked_s) = self.sensors.first_s(index);
             pairs.push(Pair { hull_m, minimum, detected_s, tracked_s });
         }
-        Trace {
+        let wakes = self.wakes.closed(self.targets.into_iter().zip(self.scripts));
+        let left = wakes.map(|wakes| Left { environment: self.environment, wakes });
+        let trace = Trace {
             outcome,
             end_s,
             own: self.own_track,
@@ -349,16 +392,7 @@ impl<'a> World<'a> {
             contact: self.contact,
             goal_reached: self.ending.goal_reached(),
             ..recorder::not_run(self.encounter)
-        }
-    }
-}
-
-/// What a ship weighs in a contact: her model's displacement, or an estimate from her hull.
-fn inertia(ship: &Ship) -> Inertia {
-    match ship.model {
-        Model::ThreeDof(model) => {
-            Inertia { mass_kg: model.displacement_kg, yaw_kgm2: model.inertia_kgm2 }
-        }
-        Model::Kinematic(_) | Model::Nomoto(_) => Inertia::of_outline(&ship.outline),
+        };
+        (trace, left)
     }
 }
