@@ -153,8 +153,8 @@ pub fn events(
     let mut own = make(planner, options).map_err(Error::Input)?;
     let peers = &mut |name: &str| make(name, &Options::new()).ok();
     let scratch = &mut sim::Scratch::default();
-    let mut trace = sim::run_among(encounter, own.as_mut(), peers, scratch, beat);
-    trace.nominal = sim::nominal(encounter);
+    let voyage = sim::voyage(encounter, own.as_mut(), peers, scratch, beat);
+    let trace = voyage.into_trace(encounter);
     let judgement = rules::Judge::new(rules.rule_set()?).judge(&trace);
     let whole = row::of_run(encounter, &trace, Digest::of_trace(&trace), &judgement);
     let row = ArmRow::of(0, &whole, encounter.distance);

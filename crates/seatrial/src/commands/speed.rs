@@ -146,10 +146,10 @@ impl<'a> Bench<'a> {
             if floor == Floor::Measured {
                 floor_s += timed(|| black_box(sim::floor(encounter))).0;
             }
-            let (run_s, mut trace) =
-                timed(|| sim::run(encounter, planner.as_mut(), &mut scratch, &beat));
-            let (nominal_s, nominal) = timed(|| sim::nominal(encounter));
-            trace.nominal = nominal;
+            let none = &mut |_: &str| None;
+            let (run_s, voyage) =
+                timed(|| sim::voyage(encounter, planner.as_mut(), none, &mut scratch, &beat));
+            let (nominal_s, mut trace) = timed(|| voyage.into_trace(encounter));
             let (digest_s, digest) = timed(|| Digest::of_trace(&trace));
             let (judge_s, first): (f64, Judgement) = timed(|| judge.judge(&trace));
             let (forks_s, found) = timed(|| fork(encounter, &mut trace, &first, judge.rules()));
