@@ -1,0 +1,94 @@
+//! Voyages that seldom come about, in which a small mistake of the judge would give another
+//! verdict: a run that starts while she turns, and a ship that has turned right round when the
+//! other passes. Judged from outside, as a campaign does.
+
+use geom::units::deg;
+use record::{Check, Status, Trace};
+use rules::{Judge, RuleSet};
+use testing::{Scene, Script, rules, ship};
+
+#[path = "../src/testing.rs"]
+#[expect(dead_code, clippy::unwrap_used, reason = "the crate's own test scripts, a few of them")]
+mod testing;
+
+/// What the scripts ask of the crate: how far apart two outlines are.
+mod pair {
+    use geom::Vec2;
+
+    /// Of outlines that never touch: from the nearest corner to the nearest edge, metres.
+    pub(crate) fn outline_distance_m(a: &[Vec2], b: &[Vec2]) -> f64 {
+        corner_to_edge_m(a, b).min(corner_to_edge_m(b, a))
+    }
+
+    fn corner_to_edge_m(corners: &[Vec2], outline: &[Vec2]) -> f64 {
+        let edges = || outline.iter().zip(outline.iter().cycle().skip(1));
+        let to_edge_m = |corner: &Vec2, (from, to): (&Vec2, &Vec2)| {
+            let (along, off) = (to - from, corner - from);
+            let share = (off.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+            (off - along * share).norm()
+        };
+        let all = corners.iter().flat_map(|c| edges().map(move |edge| to_edge_m(c, edge)));
+        all.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Status and detail of a check of the only pair.
+fn said(trace: &Trace, check: Check) -> (Status, String) {
+    let judgement = Judge::new(rules()).judge(trace);
+    let verdict = judgement.worst(check).expect("a verdict");
+    (verdict.status, verdict.detail.to_string())
+}
+
+/// The trace as one with a sample in two seconds.
+fn every_second_sample(mut trace: Trace) -> Trace {
+    for track in [&mut trace.own].into_iter().chain(&mut trace.targets) {
+        for signal in [
+            &mut track.north_m,
+            &mut track.east_m,
+            &mut track.psi_rad,
+            &mut track.vel_north_mps,
+            &mut track.vel_east_mps,
+            &mut track.stw_mps,
+            &mut track.yaw_rate_radps,
+        ] {
+            *signal = signal.iter().copied().step_by(2).collect();
+        }
+    }
+    for pair in &mut trace.pairs {
+        pair.hull_m = pair.hull_m.iter().copied().step_by(2).collect();
+    }
+    trace.sample_s = 2.0;
+    trace
+}
+
+/// Turns by 4 degrees in the first seconds, to the east, and meets a ship head-on.
+fn starts_turning(rate_deg_s: f64) -> Trace {
+    let own = Script::new(ship(10.0, 3.0), 0.0, 0.0, deg(86.0), 5.0).turn(4.0, rate_deg_s);
+    let other = Script::new(ship(40.0, 8.0), 0.0, 1500.0, deg(270.0), 5.0).hold(240.0);
+    Scene::new(own.hold(230.0), other).without_nominal().trace()
+}
+
+/// A turn begins at 0.6 degrees a second: 0.4 makes none of 4 degrees, be it under way when the run
+/// starts or not, and 1 does.
+#[test]
+fn a_run_that_starts_in_a_turn_has_her_rate_from_the_first_sample_on() {
+    for thin in [|trace: Trace| trace, every_second_sample] {
+        let of = |rate_deg_s| said(&thin(starts_turning(rate_deg_s)), Check::Turn).0;
+        assert_eq!(of(0.4), Status::NotApplicable);
+        assert_eq!(of(1.0), Status::Pass);
+    }
+}
+
+/// Own ship meets another head-on, turns right round to starboard and is overtaken: whichever side
+/// she is passed on, one of the two sees the other to starboard, and that is not port to port.
+#[test]
+fn port_to_port_is_asked_of_both_ships() {
+    // own ship ends 95 m to the east of where she began, heading south
+    for east_m in [190.0, -60.0] {
+        let own = Script::new(ship(10.0, 3.0), 0.0, 0.0, 0.0, 5.0).hold(30.0).turn(180.0, 6.0);
+        let other = Script::new(ship(40.0, 8.0), 1500.0, east_m, deg(180.0), 8.0).hold(600.0);
+        let trace = Scene::new(own.hold(500.0), other).trace();
+        let expected = (Status::Warn, "NOT-PORT-TO-PORT".to_owned());
+        assert_eq!(said(&trace, Check::R14), expected, "{east_m} m");
+    }
+}
