@@ -160,15 +160,7 @@ impl Encoder {
     }
 
     fn track(&mut self, track: &ShipTrack) {
-        for signal in [
-            &track.north_m,
-            &track.east_m,
-            &track.psi_rad,
-            &track.vel_north_mps,
-            &track.vel_east_mps,
-            &track.stw_mps,
-            &track.yaw_rate_radps,
-        ] {
+        for signal in track.signals() {
             self.array(signal);
         }
     }

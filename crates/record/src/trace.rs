@@ -176,6 +176,32 @@ impl ShipTrack {
         }
     }
 
+    /// All signals, in the order in which the digest takes them.
+    pub fn signals(&self) -> [&Vec<f64>; 7] {
+        [
+            &self.north_m,
+            &self.east_m,
+            &self.psi_rad,
+            &self.vel_north_mps,
+            &self.vel_east_mps,
+            &self.stw_mps,
+            &self.yaw_rate_radps,
+        ]
+    }
+
+    /// All signals, to change them alike.
+    pub fn signals_mut(&mut self) -> [&mut Vec<f64>; 7] {
+        [
+            &mut self.north_m,
+            &mut self.east_m,
+            &mut self.psi_rad,
+            &mut self.vel_north_mps,
+            &mut self.vel_east_mps,
+            &mut self.stw_mps,
+            &mut self.yaw_rate_radps,
+        ]
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.north_m.len()

@@ -246,15 +246,7 @@ impl Scene {
 }
 
 fn cut(mut track: ShipTrack, samples: usize) -> ShipTrack {
-    for signal in [
-        &mut track.north_m,
-        &mut track.east_m,
-        &mut track.psi_rad,
-        &mut track.vel_north_mps,
-        &mut track.vel_east_mps,
-        &mut track.stw_mps,
-        &mut track.yaw_rate_radps,
-    ] {
+    for signal in track.signals_mut() {
         signal.truncate(samples);
     }
     track

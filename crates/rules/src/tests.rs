@@ -1,5 +1,6 @@
 //! Truth tables of the rules: voyages written by hand, and what the judge must say of them.
 
+mod can_differ;
 mod dnv_labels;
 mod edge_cases;
 mod laws;

@@ -33,13 +33,9 @@ pub fn sample(track: &mut ShipTrack, state: &State, velocity_mps: Vec2) {
 
 /// Adds sample `k` of another track.
 pub(crate) fn copy(track: &mut ShipTrack, from: &ShipTrack, k: usize) {
-    track.north_m.push(from.north_m[k]);
-    track.east_m.push(from.east_m[k]);
-    track.psi_rad.push(from.psi_rad[k]);
-    track.vel_north_mps.push(from.vel_north_mps[k]);
-    track.vel_east_mps.push(from.vel_east_mps[k]);
-    track.stw_mps.push(from.stw_mps[k]);
-    track.yaw_rate_radps.push(from.yaw_rate_radps[k]);
+    for (signal, from) in track.signals_mut().into_iter().zip(from.signals()) {
+        signal.push(from[k]);
+    }
 }
 
 /// The pose at sample `k` of a track.

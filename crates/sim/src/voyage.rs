@@ -3,16 +3,15 @@
 //! In weather a ship that does not react to own ship goes through the same states on the nominal
 //! track as in the run, to the last bit: the orders, the weather and the steps are the same. So the
 //! nominal track takes them from her wake and integrates her on only where it outlasts the run, or
-//! from where she reacted. In steady weather it goes in closed form, which the run does not, and
-//! takes nothing.
+//! from where she reacted. It takes nothing in steady weather, where it goes in closed form and the
+//! run does not, and nothing from a run that ended in a contact.
 
 use crate::intent::Script;
 use crate::nominal;
 use crate::pose::Pose;
 use crate::ship::Ship;
 use crate::weather::Environment;
-use record::{Encounter, Nominal, Trace};
-use std::ops::RangeInclusive;
+use record::{Encounter, Trace};
 
 /// A run that can make the nominal track of its encounter from what it knows already.
 #[derive(Debug)]
@@ -31,17 +30,12 @@ pub(crate) struct Left {
 }
 
 impl Voyage {
-    /// The same as [`nominal()`](crate::nominal()) of the encounter that was run, bit for bit.
-    pub fn nominal(&mut self, encounter: &Encounter) -> Option<Nominal> {
-        match self.left.take() {
+    /// The run with its nominal track: that of [`nominal()`](crate::nominal()), bit for bit.
+    pub fn into_trace(self, encounter: &Encounter) -> Trace {
+        let nominal = match self.left {
             Some(left) => Some(nominal::after(encounter, left, &self.trace.targets)),
             None => nominal::nominal(encounter),
-        }
-    }
-
-    /// The run with its nominal track.
-    pub fn into_trace(mut self, encounter: &Encounter) -> Trace {
-        let nominal = self.nominal(encounter);
+        };
         Trace { nominal, ..self.trace }
     }
 }
@@ -70,18 +64,6 @@ impl Wakes {
                 beat[1] = target.pose;
             }
         }
-    }
-
-    /// The run ended within a beat; on the nominal track there is no contact, and the steps that
-    /// are `left` of the beat follow.
-    pub(crate) fn finish(&mut self, targets: &mut [Ship], left: RangeInclusive<u64>, step_s: f64) {
-        if self.0.is_empty() {
-            return;
-        }
-        for step in left {
-            targets.iter_mut().for_each(|t| t.advance((step + 1) as f64 * step_s, step_s));
-        }
-        self.end(targets);
     }
 
     /// From the start of this beat on a target is not followed; the first call counts.

@@ -225,9 +225,10 @@ impl<'a> World<'a> {
                 return (Outcome::Invalid, t_s);
             }
             self.wakes.begin(&self.targets);
-            for left in (0..steps_a_beat).rev() {
+            for _ in 0..steps_a_beat {
                 if let Some(contact) = self.step(step) {
-                    self.wakes.finish(&mut self.targets, step + 1..=step + left, run.step_s);
+                    // within a beat there is nowhere to go on from
+                    self.wakes = Wakes::default();
                     self.contact = Some(contact);
                     let outcome = match contact.with {
                         ContactWith::Target(_) => Outcome::Collision,

@@ -6,11 +6,8 @@ mod scenes;
 use geom::{Vec2, angle, units::deg, wrap};
 use nalgebra::{Matrix4, Vector4};
 use planner_api::{Command, Mission, Planner, Situation, TargetTrack};
-use record::{
-    Ais, AisRadar, Conduct, Encounter, Fluctuation, Intent, Manner, Radar, Sensing, Trace, Tracker,
-    Waves, Weather, Wind,
-};
-use scenes::{Meeting, Orders, kinematic, run, viknes};
+use record::{Ais, AisRadar, Conduct, Encounter, Intent, Manner, Radar, Sensing, Trace, Tracker};
+use scenes::{Meeting, Orders, kinematic, rough, run, viknes};
 
 const AIS: Ais = Ais {
     carried: 1.0,
@@ -206,25 +203,6 @@ fn errors_of_whole_runs_are_as_large_as_the_covariance_says() {
         let cautious = Tracker { acceleration_sd_mps2: 0.15, ..TRACKER };
         let (mean, error) = mean_normalised_error(80, |j| encounter(j, ais, radar, cautious));
         assert!(mean + 4.5 * error < 4.0 && mean > 1.0, "{what}, cautious: {mean} +- {error}");
-    }
-}
-
-fn rough() -> Weather {
-    Weather {
-        current_mps: Vec2::new(0.3, 0.4),
-        current_noise: Some(Fluctuation { sd_mps: 0.1, time_constant_s: 120.0 }),
-        wind: Some(Wind {
-            velocity_mps: Vec2::new(-6.0, 5.0),
-            gusts: Fluctuation { sd_mps: 2.0, time_constant_s: 15.0 },
-            leeway: 0.03,
-        }),
-        waves: Some(Waves {
-            drift_mps: Vec2::new(-0.05, 0.05),
-            drift_sd_mps: 0.1,
-            yaw_rate_sd_radps: deg(0.5),
-            time_constant_s: 4.0,
-            length_m_ref: 10.0,
-        }),
     }
 }
 

@@ -5,30 +5,10 @@ mod scenes;
 use geom::{Vec2, units::deg};
 use planner_api::{Command, Mission, Planner, Situation};
 use record::{
-    Conduct, Digest, Encounter, Fluctuation, Intent, Manner, Outcome, RunUntil, Trace, Turn,
-    Vessel, Waves, Waypoint, Weather, Wind,
+    Conduct, Digest, Encounter, Intent, Manner, Outcome, RunUntil, Trace, Turn, Vessel, Waypoint,
 };
-use scenes::{Meeting, Orders, Shy, hold, kinematic, viknes};
+use scenes::{Meeting, Orders, Shy, hold, kinematic, rough, viknes};
 use std::sync::atomic::AtomicU64;
-
-fn rough() -> Weather {
-    Weather {
-        current_mps: Vec2::new(0.3, -0.2),
-        current_noise: Some(Fluctuation { sd_mps: 0.1, time_constant_s: 120.0 }),
-        wind: Some(Wind {
-            velocity_mps: Vec2::new(-4.0, 3.0),
-            gusts: Fluctuation { sd_mps: 1.0, time_constant_s: 15.0 },
-            leeway: 0.03,
-        }),
-        waves: Some(Waves {
-            drift_mps: Vec2::new(-0.05, 0.05),
-            drift_sd_mps: 0.1,
-            yaw_rate_sd_radps: deg(0.5),
-            time_constant_s: 4.0,
-            length_m_ref: 10.0,
-        }),
-    }
-}
 
 fn duty(manner: Manner) -> Intent {
     Intent::Duty(Conduct {

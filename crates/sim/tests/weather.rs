@@ -4,29 +4,9 @@
 mod scenes;
 
 use geom::{Vec2, math, units::deg, wrap};
-use record::{Encounter, EncounterId, Fluctuation, Purpose, Seed, Streams, Waves, Weather, Wind};
-use scenes::{Meeting, Orders, hold, kinematic, run, viknes};
+use record::{Encounter, EncounterId, Fluctuation, Purpose, Seed, Streams, Weather, Wind};
+use scenes::{Meeting, Orders, hold, kinematic, rough, run, viknes};
 use sim::weather::Process;
-
-fn rough() -> Weather {
-    Weather {
-        // sets east as the wind does: against it the two would cancel
-        current_mps: Vec2::new(0.3, 0.5),
-        current_noise: Some(Fluctuation { sd_mps: 0.1, time_constant_s: 120.0 }),
-        wind: Some(Wind {
-            velocity_mps: Vec2::new(-6.0, 5.0),
-            gusts: Fluctuation { sd_mps: 2.0, time_constant_s: 15.0 },
-            leeway: 0.03,
-        }),
-        waves: Some(Waves {
-            drift_mps: Vec2::new(-0.05, 0.05),
-            drift_sd_mps: 0.1,
-            yaw_rate_sd_radps: deg(0.5),
-            time_constant_s: 4.0,
-            length_m_ref: 10.0,
-        }),
-    }
-}
 
 fn meeting(weather: Weather) -> Encounter {
     let meeting = Meeting { miss_m: 200.0, ..Meeting::default() };

@@ -188,15 +188,7 @@ fn a_plan_may_end_before_the_run() {
         let mut trace = Scene::new(script, she).nominal_targets(vec![slow_ahead()]).trace();
         let nominal = trace.nominal.as_mut().unwrap();
         for track in nominal.targets.iter_mut().chain([&mut nominal.own]) {
-            for signal in [
-                &mut track.north_m,
-                &mut track.east_m,
-                &mut track.psi_rad,
-                &mut track.vel_north_mps,
-                &mut track.vel_east_mps,
-                &mut track.stw_mps,
-                &mut track.yaw_rate_radps,
-            ] {
+            for signal in track.signals_mut() {
                 signal.truncate(samples);
             }
         }

@@ -4,8 +4,8 @@
 use geom::{HullOutline, Vec2, units::deg};
 use planner_api::{Command, Mission, Planner, Situation};
 use record::{
-    DistanceKind, Encounter, EncounterId, Intent, Motion, OwnShip, RunLimits, RunUntil, Seed,
-    Sensing, Target, Trace, Vessel, Visibility, Waypoint, Weather,
+    DistanceKind, Encounter, EncounterId, Fluctuation, Intent, Motion, OwnShip, RunLimits,
+    RunUntil, Seed, Sensing, Target, Trace, Vessel, Visibility, Waves, Waypoint, Weather, Wind,
 };
 use std::sync::atomic::AtomicU64;
 
@@ -84,6 +84,27 @@ impl Meeting {
                 until: RunUntil::PastAndClear,
             },
         }
+    }
+}
+
+/// Everything that the weather can do.
+pub(crate) fn rough() -> Weather {
+    Weather {
+        // sets east as the wind does: against it the two would cancel
+        current_mps: Vec2::new(0.3, 0.5),
+        current_noise: Some(Fluctuation { sd_mps: 0.1, time_constant_s: 120.0 }),
+        wind: Some(Wind {
+            velocity_mps: Vec2::new(-6.0, 5.0),
+            gusts: Fluctuation { sd_mps: 2.0, time_constant_s: 15.0 },
+            leeway: 0.03,
+        }),
+        waves: Some(Waves {
+            drift_mps: Vec2::new(-0.05, 0.05),
+            drift_sd_mps: 0.1,
+            yaw_rate_sd_radps: deg(0.5),
+            time_constant_s: 4.0,
+            length_m_ref: 10.0,
+        }),
     }
 }
 

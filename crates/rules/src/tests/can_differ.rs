@@ -1,56 +1,20 @@
 //! Voyages that seldom come about, in which a small mistake of the judge would give another
 //! verdict: a run that starts while she turns, and a ship that has turned right round when the
-//! other passes. Judged from outside, as a campaign does.
+//! other passes.
 
-use geom::units::deg;
-use record::{Check, Status, Trace};
-use rules::{Judge, RuleSet};
-use testing::{Scene, Script, rules, ship};
-
-#[path = "../src/testing.rs"]
-#[expect(dead_code, clippy::unwrap_used, reason = "the crate's own test scripts, a few of them")]
-mod testing;
-
-/// What the scripts ask of the crate: how far apart two outlines are.
-mod pair {
-    use geom::Vec2;
-
-    /// Of outlines that never touch: from the nearest corner to the nearest edge, metres.
-    pub(crate) fn outline_distance_m(a: &[Vec2], b: &[Vec2]) -> f64 {
-        corner_to_edge_m(a, b).min(corner_to_edge_m(b, a))
-    }
-
-    fn corner_to_edge_m(corners: &[Vec2], outline: &[Vec2]) -> f64 {
-        let edges = || outline.iter().zip(outline.iter().cycle().skip(1));
-        let to_edge_m = |corner: &Vec2, (from, to): (&Vec2, &Vec2)| {
-            let (along, off) = (to - from, corner - from);
-            let share = (off.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            (off - along * share).norm()
-        };
-        let all = corners.iter().flat_map(|c| edges().map(move |edge| to_edge_m(c, edge)));
-        all.fold(f64::INFINITY, f64::min)
-    }
-}
+use super::*;
 
 /// Status and detail of a check of the only pair.
 fn said(trace: &Trace, check: Check) -> (Status, String) {
-    let judgement = Judge::new(rules()).judge(trace);
-    let verdict = judgement.worst(check).expect("a verdict");
+    let judgement = judge_by(rules(), trace);
+    let verdict = verdict(&judgement, check);
     (verdict.status, verdict.detail.to_string())
 }
 
 /// The trace as one with a sample in two seconds.
 fn every_second_sample(mut trace: Trace) -> Trace {
     for track in [&mut trace.own].into_iter().chain(&mut trace.targets) {
-        for signal in [
-            &mut track.north_m,
-            &mut track.east_m,
-            &mut track.psi_rad,
-            &mut track.vel_north_mps,
-            &mut track.vel_east_mps,
-            &mut track.stw_mps,
-            &mut track.yaw_rate_radps,
-        ] {
+        for signal in track.signals_mut() {
             *signal = signal.iter().copied().step_by(2).collect();
         }
     }
