@@ -64,10 +64,14 @@ fn a_planner_passes_against_itself_and_a_broken_one_fails_with_its_replay() {
     assert!(replayed.contains("candidate hold-course") && replayed.contains("picture"));
 
     let hurried = fs::read_to_string(folder.join("small.toml")).unwrap();
-    let hurried = hurried.replace("planner_hang_limit_s = 10.0", "planner_hang_limit_s = 0.3");
+    // a few encounters, and a share of them that is never none: 0.75 to the 28th is 3e-4
+    let hurried = hurried
+        .replace("planner_hang_limit_s = 10.0", "planner_hang_limit_s = 0.3")
+        .replace("cap_pairs = 700", "cap_pairs = 28")
+        .replace("look_every_pairs = 70", "look_every_pairs = 28");
     fs::write(folder.join("hurried.toml"), hurried).unwrap();
     let line = "gate --campaign hurried.toml --baseline zhuang --candidate spins --series y \
-                --candidate-option share=0.02 --out slow --quiet";
+                --candidate-option share=0.25 --out slow --quiet";
     let said = run(folder, line).stdout;
     let said = String::from_utf8_lossy(&said);
     assert!(said.contains("a limit on the wall clock ended"), "{said}");
