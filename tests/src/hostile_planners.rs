@@ -52,6 +52,7 @@ def misbehave(seq, answer):
     if act == "memory":
         answer["order"] = {"velocity_mps": [float(len(bytearray(1 << 30))), 0.0]}
     if act == "forks":
+        open("forks.pids", "a").close()
         for _ in range(20):
             if os.fork() == 0:
                 with open("forks.pids", "a") as file:
