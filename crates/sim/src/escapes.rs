@@ -176,7 +176,7 @@ impl Mover {
             yaw_rate_radps: 0.0,
         };
         let way = &self.ways[way];
-        Passing { way, body: &self.body, other, start, beat_s: clock.beat_s }.slack_m(than_m)
+        Passing { way, body: &self.body, other, start, clock }.slack_m(than_m)
     }
 
     /// The way of a manoeuvre from this speed, sailed once.

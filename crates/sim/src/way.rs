@@ -82,6 +82,12 @@ pub(crate) struct Clock {
     pub(crate) step_s: f64,
 }
 
+impl Clock {
+    fn steps_a_beat(self) -> usize {
+        (self.beat_s / self.step_s).round() as usize
+    }
+}
+
 /// A hull, and the rectangle around it.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
@@ -111,8 +117,8 @@ impl Body {
     }
 }
 
-/// The way of one manoeuvre through the water, from the origin and heading north: a pose a beat,
-/// and straight on from the last one.
+/// The way of one manoeuvre through the water, from the origin and heading north: a pose a step,
+/// as many as a run looks at, in whole beats, and straight on from the last one.
 #[derive(Debug)]
 pub(crate) struct Way {
     pub(crate) manoeuvre: Manoeuvre,
@@ -135,7 +141,6 @@ impl Way {
         clock: Clock,
     ) -> Self {
         let (end_rad, end_mps) = manoeuvre.end(surge_mps);
-        let steps = (clock.beat_s / clock.step_s).round() as usize;
         let mut state = State::ahead(Vec2::zeros(), 0.0, surge_mps);
         let pose = |state: &State| Pose::of(state, Vec2::zeros());
         let mut poses = vec![pose(&state)];
@@ -145,10 +150,10 @@ impl Way {
                 break;
             }
             let helm = if waits { helm(0.0, surge_mps) } else { order(&state, end_rad, end_mps) };
-            for _ in 0..steps {
+            for _ in 0..clock.steps_a_beat() {
                 state = model.step(&state, &helm, Vec2::zeros(), clock.step_s);
+                poses.push(pose(&state));
             }
-            poses.push(pose(&state));
         }
         let speed_mps = |pose: &Pose| pose.velocity_mps.norm();
         let last = poses[poses.len() - 1];
@@ -190,7 +195,7 @@ pub(crate) struct Passing<'a> {
     pub(crate) body: &'a Body,
     pub(crate) other: &'a Body,
     pub(crate) start: Pose,
-    pub(crate) beat_s: f64,
+    pub(crate) clock: Clock,
 }
 
 impl Passing<'_> {
@@ -199,26 +204,19 @@ impl Passing<'_> {
     }
 
     /// How much more than `than_m` the hulls stay apart at least; `None` where they do not. Hull
-    /// geometry is left out wherever the rectangle around the larger hull and the circle around the
-    /// smaller one settle it.
+    /// geometry is left out in every beat for which the rectangle around the larger hull and the
+    /// circle around the smaller one settle it.
     pub(crate) fn slack_m(&self, than_m: f64) -> Option<f64> {
-        let (of_other, closing_mps) = self.bound_by();
-        let bound_m = |pose: &Pose, k: usize| {
-            let to_other_m = self.start.position_m - pose.position_m
-                + self.start.velocity_mps * (k as f64 * self.beat_s);
-            if of_other {
-                self.other.distance_m(self.start.heading, -to_other_m) - self.body.hull.radius_m
-            } else {
-                self.body.distance_m(pose.heading, to_other_m) - self.other.hull.radius_m
-            }
-        };
+        let Clock { beat_s, .. } = self.clock;
+        let steps = self.clock.steps_a_beat();
+        let closing_mps = self.closing_mps();
         let mut slack_m = f64::INFINITY;
-        let mut before_m = bound_m(&self.way.poses[0], 0);
-        for (k, pose) in self.way.poses.iter().enumerate().skip(1) {
-            let after_m = bound_m(pose, k);
-            let mut least_m = 0.5 * (before_m + after_m - closing_mps * self.beat_s);
+        let mut before_m = self.bound_m(0);
+        for from in (0..self.way.poses.len() - 1).step_by(steps) {
+            let after_m = self.bound_m(from + steps);
+            let mut least_m = 0.5 * (before_m + after_m - closing_mps * beat_s);
             if least_m <= than_m {
-                least_m = self.exact_m((k - 1, self.beat_s), [&self.way.poses[k - 1], pose]);
+                least_m = self.least_of_beat_m(from, than_m);
             }
             if least_m <= than_m {
                 return None;
@@ -230,19 +228,50 @@ impl Passing<'_> {
         (least_m > than_m).then(|| slack_m.min(least_m - than_m))
     }
 
-    /// Whether the rectangle is the other ship's, and how fast the distance to it can change.
-    fn bound_by(&self) -> (bool, f64) {
-        let relative_mps = self.way.fastest_mps + self.start.velocity_mps.norm();
-        if self.body.hull.radius_m <= self.other.hull.radius_m {
-            (true, relative_mps)
+    /// Smallest hull distance of the beat that begins at pose `from`, metres, or one that is no
+    /// more than `than_m`: hull by hull from step to step, as a run looks.
+    fn least_of_beat_m(&self, from: usize, than_m: f64) -> f64 {
+        let mut least_m = f64::INFINITY;
+        for k in from..from + self.clock.steps_a_beat() {
+            let own = [&self.way.poses[k], &self.way.poses[k + 1]];
+            least_m = least_m.min(self.exact_m((k, self.clock.step_s), own));
+            if least_m <= than_m {
+                break;
+            }
+        }
+        least_m
+    }
+
+    /// A lower bound of the hull distance at pose `k`, metres.
+    fn bound_m(&self, k: usize) -> f64 {
+        let pose = &self.way.poses[k];
+        let to_other_m = self.start.position_m - pose.position_m
+            + self.start.velocity_mps * (k as f64 * self.clock.step_s);
+        if self.bound_is_of_other() {
+            self.other.distance_m(self.start.heading, -to_other_m) - self.body.hull.radius_m
         } else {
-            (false, relative_mps + self.way.turns_radps * self.body.hull.radius_m)
+            self.body.distance_m(pose.heading, to_other_m) - self.other.hull.radius_m
         }
     }
 
-    /// Smallest hull distance of an interval that starts at beat `from`, metres.
+    /// Whether the rectangle is the other ship's.
+    fn bound_is_of_other(&self) -> bool {
+        self.body.hull.radius_m <= self.other.hull.radius_m
+    }
+
+    /// How fast that bound can change, m/s.
+    fn closing_mps(&self) -> f64 {
+        let relative_mps = self.way.fastest_mps + self.start.velocity_mps.norm();
+        if self.bound_is_of_other() {
+            relative_mps
+        } else {
+            relative_mps + self.way.turns_radps * self.body.hull.radius_m
+        }
+    }
+
+    /// Smallest hull distance of an interval that starts at pose `from`, metres.
     fn exact_m(&self, (from, dt_s): (usize, f64), own: [&Pose; 2]) -> f64 {
-        let start_s = from as f64 * self.beat_s;
+        let start_s = from as f64 * self.clock.step_s;
         let others = [self.other_at(start_s), self.other_at(start_s + dt_s)];
         let target = [&others[0], &others[1]];
         let hulls = Hulls { own: &self.body.hull, target: &self.other.hull };
@@ -254,7 +283,7 @@ impl Passing<'_> {
     fn least_after_m(&self, than_m: f64) -> f64 {
         let from = self.way.poses.len() - 1;
         let after = &self.way.after;
-        let other = self.other_at(from as f64 * self.beat_s);
+        let other = self.other_at(from as f64 * self.clock.step_s);
         let offset_m = other.position_m - after.position_m;
         let relative_mps = other.velocity_mps - after.velocity_mps;
         let closest = geom::cpa(offset_m, relative_mps);
@@ -268,6 +297,6 @@ impl Passing<'_> {
             .map_or(0.0, |tcpa_s| tcpa_s.max(0.0) + 2.0 * (radii_m + than_m) / relative_mps.norm());
         let later =
             Pose { position_m: after.position_m + after.velocity_mps * passing_s, ..*after };
-        self.exact_m((from, passing_s.max(self.beat_s)), [after, &later])
+        self.exact_m((from, passing_s.max(self.clock.beat_s)), [after, &later])
     }
 }
