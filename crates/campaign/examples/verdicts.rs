@@ -41,6 +41,10 @@ fn main() -> Result<(), Error> {
             print!("{t_s:.0}:{:.1}@{:.1} ", psi_rad.to_degrees(), run.trace.own.sog_mps(k));
         }
         let nominal = run.trace.nominal.as_ref();
+        println!("\noff the nominal heading");
+        for (k, off) in deviation_rad(&run.trace, &second).iter().enumerate() {
+            print!("{:.0}:{:.2} ", k as f64 * run.trace.sample_s, off.to_degrees());
+        }
         let minima = nominal.map(|n| n.minima.iter().map(|m| m.of(run.trace.distance)));
         println!("\nnominal {:?}", minima.map(Iterator::collect::<Vec<_>>));
         let judgement = first.judge(&run.trace);
@@ -75,4 +79,9 @@ fn main() -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// Own ship's heading less the nominal one, radians.
+fn deviation_rad(trace: &record::Trace, params: &stl::params::Params) -> Vec<f64> {
+    stl::action::Deviation::of(trace, params).heading_rad
 }

@@ -317,7 +317,8 @@ pub enum ContactWith {
 /// follow their scripts and do not react, noise is the same. Sampled like the trace.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nominal {
-    /// Own ship.
+    /// Own ship. Her track may be longer than those of the others, never shorter: where the run
+    /// outlasts the encounter without avoidance she goes on until the end of the run.
     pub own: ShipTrack,
     /// The other ships.
     pub targets: Vec<ShipTrack>,

@@ -83,7 +83,7 @@ impl RiskScanner {
             }
             self.turning.resize(pair.len(), false);
             // in a seaway a ship yaws faster than this all the time; her smoothed rate does not
-            self.kernel.smooth(&track.yaw_rate_radps, &mut self.smooth);
+            self.kernel.smooth(&track.yaw_rate_radps[..pair.len()], &mut self.smooth);
             for (mark, rate) in self.turning.iter_mut().zip(&self.smooth) {
                 *mark |= rate.abs() > limit_radps;
             }

@@ -59,7 +59,7 @@ impl<'a> Escapes<'a> {
     pub fn instants(&self, target: usize) -> usize {
         let closest_s = self.nominal.minima[target].hull_s;
         let last = (closest_s / self.time_s(1)) as usize;
-        last.min((self.nominal.own.len() - 1) / self.stride) + 1
+        last.min((self.nominal.targets[target].len() - 1) / self.stride) + 1
     }
 
     /// Time of an instant, seconds.

@@ -3,6 +3,10 @@
 //!
 //! Ships do not react to one another here, so each goes from beat to beat on her own: in closed
 //! form while nothing changes, by her model in steps otherwise.
+//!
+//! Of a run, own ship's track goes on as long as the run where that outlasts the encounter without
+//! avoidance: the judges take her nominal heading and speed off those of the run, sample by sample,
+//! and a yaw frozen at the last beat would leave that of the weather for an alteration of hers.
 
 use crate::approach::Approach;
 use crate::check::check;
@@ -20,21 +24,33 @@ use record::{Encounter, Nominal, ShipTrack};
 /// It ends when own ship is past and clear on it (and at her goal, if the run is to end there),
 /// or at the longest duration; that does not depend on any planner.
 pub fn nominal(encounter: &Encounter) -> Option<Nominal> {
+    lasting(encounter, 0)
+}
+
+/// The same; own ship has `samples` samples at least.
+pub(crate) fn lasting(encounter: &Encounter, samples: usize) -> Option<Nominal> {
     check(encounter).ok()?;
-    Some(begin(encounter, Environment::new(encounter), encounter.targets.iter().map(|_| None)))
+    let wakes = encounter.targets.iter().map(|_| None);
+    Some(begin(encounter, Environment::new(encounter), wakes, samples))
 }
 
 /// The same from what is left of a run of this encounter, whose targets have these tracks.
-pub(crate) fn after(encounter: &Encounter, left: Left, tracks: &[ShipTrack]) -> Nominal {
+pub(crate) fn after(
+    encounter: &Encounter,
+    left: Left,
+    tracks: &[ShipTrack],
+    samples: usize,
+) -> Nominal {
     let Left { mut environment, wakes } = left;
     environment.rewind();
-    begin(encounter, environment, wakes.into_iter().zip(tracks).map(Some))
+    begin(encounter, environment, wakes.into_iter().zip(tracks).map(Some), samples)
 }
 
 fn begin<'a>(
     encounter: &Encounter,
     environment: Environment,
     wakes: impl Iterator<Item = Option<(Wake, &'a ShipTrack)>>,
+    own_samples: usize,
 ) -> Nominal {
     let (own_ship, ships) = environment.ships(encounter).expect("the encounter was checked");
     let mut route = Route::new(&own_ship, &encounter.own.route, encounter.own.cruise_mps);
@@ -54,7 +70,7 @@ fn begin<'a>(
             Sailor::new(ship, script, wake, room)
         })
         .collect();
-    sail(encounter, environment, own, targets)
+    sail(encounter, environment, own, targets, own_samples)
 }
 
 fn samples(encounter: &Encounter) -> usize {
@@ -126,6 +142,7 @@ fn sail(
     mut environment: Environment,
     mut own: Sailor<'_>,
     mut targets: Vec<Sailor<'_>>,
+    own_samples: usize,
 ) -> Nominal {
     let run = encounter.run;
     let steps_a_beat = (run.beat_s / run.step_s).round() as u64;
@@ -169,6 +186,12 @@ fn sail(
             approach.advance(&interval, hulls(&own, target));
         }
         step += steps_a_beat;
+    }
+    while own.track.len() < own_samples {
+        own.advance(step, steps_a_beat, run.step_s);
+        step += steps_a_beat;
+        environment.advance();
+        own.sample(0, &environment);
     }
     let minima =
         targets.iter().zip(&mut approaches).zip(&bounds_m).map(|((t, approach), bounds)| {

@@ -30,11 +30,13 @@ pub(crate) struct Left {
 }
 
 impl Voyage {
-    /// The run with its nominal track: that of [`nominal()`](crate::nominal()), bit for bit.
+    /// The run with its nominal track: that of [`nominal()`](crate::nominal()), bit for bit, but
+    /// for own ship, who goes on until the end of a run that outlasts it.
     pub fn into_trace(self, encounter: &Encounter) -> Trace {
+        let samples = self.trace.samples();
         let nominal = match self.left {
-            Some(left) => Some(nominal::after(encounter, left, &self.trace.targets)),
-            None => nominal::nominal(encounter),
+            Some(left) => Some(nominal::after(encounter, left, &self.trace.targets, samples)),
+            None => nominal::lasting(encounter, samples),
         };
         Trace { nominal, ..self.trace }
     }

@@ -5,7 +5,8 @@ mod scenes;
 use geom::{Vec2, units::deg};
 use planner_api::{Command, Mission, Planner, Situation};
 use record::{
-    Conduct, Digest, Encounter, Intent, Manner, Outcome, RunUntil, Trace, Turn, Vessel, Waypoint,
+    Conduct, Digest, Encounter, Intent, Manner, Nominal, Outcome, RunUntil, ShipTrack, Trace, Turn,
+    Vessel, Waypoint, Weather,
 };
 use scenes::{Meeting, Orders, Shy, hold, kinematic, rough, viknes};
 use std::sync::atomic::AtomicU64;
@@ -64,9 +65,39 @@ fn sailed(encounter: &Encounter, planner: &mut dyn Planner) -> Trace {
         assert_eq!(one.len(), other.len());
         assert!(one == other, "a target went another way");
     }
-    expected.nominal = Some(alone);
+    let n = nominal.own.len();
+    assert_eq!(n, alone.own.len().max(trace.samples()));
+    goes_on(&nominal.own, encounter);
+    expected.nominal = Some(Nominal { own: nominal.own.clone(), ..alone });
     assert_eq!(Digest::of_trace(&trace), Digest::of_trace(&expected));
     trace
+}
+
+/// Own ship's track is the one that she has where nothing ends it but the time, as far as it goes.
+fn goes_on(own: &ShipTrack, encounter: &Encounter) {
+    let mut endless = encounter.clone();
+    endless.run.until = RunUntil::TimeIsUp;
+    let on = sim::nominal(&endless).expect("the encounter is sound").own;
+    let columns = |t: &ShipTrack| {
+        [&t.north_m, &t.east_m, &t.psi_rad, &t.vel_north_mps, &t.vel_east_mps, &t.yaw_rate_radps]
+            .map(|column| column[..own.len()].to_vec())
+    };
+    assert_eq!(columns(own), columns(&on));
+}
+
+/// The judges take her nominal heading off that of the run: one that ended before the run would
+/// leave all that the weather turns her by.
+#[test]
+fn own_ship_goes_on_where_the_run_outlasts_her_nominal_track() {
+    let mut calm = meeting(viknes(), &duty(Manner::WrongWay), 20.0);
+    calm.weather = Weather::default();
+    for encounter in [meeting(viknes(), &duty(Manner::Complies), 20.0), calm] {
+        let trace = sailed(&encounter, &mut Orders(vec![(0.0, deg(95.0), 7.0)]));
+        let nominal = trace.nominal.as_ref().unwrap();
+        let over = nominal.targets[0].len();
+        assert!(trace.samples() > over + 20, "{} {over}", trace.samples());
+        assert_eq!(nominal.own.len(), trace.samples());
+    }
 }
 
 #[test]
@@ -93,7 +124,7 @@ fn a_target_that_reacts_parts_from_her_nominal_track() {
     let encounter = meeting(viknes(), &duty(Manner::Complies), 20.0);
     let trace = sailed(&encounter, &mut hold());
     let nominal = trace.nominal.as_ref().unwrap();
-    let least = trace.samples().min(nominal.own.len());
+    let least = trace.samples().min(nominal.targets[0].len());
     let (ran, alone) = (&trace.targets[0].psi_rad[..least], &nominal.targets[0].psi_rad[..least]);
     let parted = ran.iter().zip(alone).position(|(a, b)| (a - b).abs() > 0.0).unwrap();
     assert!((30..least).contains(&parted), "{parted}");

@@ -22,7 +22,7 @@ pub fn risk_open(
 ) -> Vec<Range<usize>> {
     let samples = pair.samples();
     let hold = samples_of(params.risk_hold_s, sample_s);
-    let unsteady = [pair.own, pair.target].map(|ship| unsteady(ship, params, sample_s));
+    let unsteady = [pair.own, pair.target].map(|ship| unsteady(ship, samples, params, sample_s));
     let steady = |k: usize| unsteady.iter().all(|ship| !ship.get(k).is_some_and(|turns| *turns));
     let mut open: Vec<Range<usize>> = Vec::new();
     let mut from: Option<usize> = None;
@@ -58,12 +58,14 @@ pub fn risk_open(
 
 /// Where a ship manoeuvres: a seaway or a restless helm yaws her faster than that all the time, so
 /// that the rate is smoothed as it is for the runs. Empty where she never does.
-fn unsteady(ship: &ShipTrack, params: &Params, sample_s: f64) -> Vec<bool> {
+fn unsteady(ship: &ShipTrack, samples: usize, params: &Params, sample_s: f64) -> Vec<bool> {
+    // a track that goes on alone says nothing of the pair
+    let rates = &ship.yaw_rate_radps[..samples];
     let turns = |rate: &f64| rate.abs() > params.manoeuvring_yaw_rate_radps;
-    if !ship.yaw_rate_radps.iter().any(turns) {
+    if !rates.iter().any(turns) {
         return Vec::new();
     }
-    let smooth = smoothed(&ship.yaw_rate_radps, params.run.smoothing_s, sample_s);
+    let smooth = smoothed(rates, params.run.smoothing_s, sample_s);
     smooth.iter().map(turns).collect()
 }
 
