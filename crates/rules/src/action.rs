@@ -50,6 +50,8 @@ pub(crate) struct Action {
 struct Offsets<'a> {
     values: &'a [f64],
     level: f64,
+    /// Speed over ground, where an offset counts only while she has way, m/s.
+    way: Option<(&'a [f64], f64)>,
     /// Samples that an offset must be held for.
     held: usize,
     sample_s: f64,
@@ -240,7 +242,8 @@ impl Action {
     }
 
     fn headings<'b>(&self, life: &PairLife<'_>, own: &'b OwnSignals) -> Offsets<'b> {
-        Offsets::new(life, &own.heading_rad, self.heading_0_rad)
+        let way = Some((&own.speed_mps[..], life.rules.manoeuvre.moving_mps));
+        Offsets { way, ..Offsets::new(life, &own.heading_rad, self.heading_0_rad) }
     }
 
     fn speeds<'b>(&self, life: &PairLife<'_>, own: &'b OwnSignals) -> Offsets<'b> {
@@ -287,7 +290,15 @@ impl<'a> Offsets<'a> {
     fn new(life: &PairLife<'_>, values: &'a [f64], level: f64) -> Self {
         let sample_s = life.trace.sample_s;
         let held = (life.rules.manoeuvre.offset_held_s / sample_s).ceil() as usize;
-        Self { values, level, held, sample_s }
+        Self { values, level, way: None, held, sample_s }
+    }
+
+    /// The offset to `side` at a sample. How a ship lies that has no way is no manoeuvre.
+    fn at(&self, side: f64, k: usize) -> f64 {
+        match self.way {
+            Some((speed_mps, moving_mps)) if speed_mps[k] < moving_mps => 0.0,
+            _ => (self.values[k] - self.level) * side,
+        }
     }
 
     /// Largest offset to `side` that is held, over the samples at which it may begin.
@@ -295,9 +306,8 @@ impl<'a> Offsets<'a> {
         let mut best = 0.0;
         for k in range.start..range.end.min(self.values.len().saturating_sub(self.held)) {
             // nothing held from here on can exceed the offset here
-            if (self.values[k] - self.level) * side > best {
-                let window = &self.values[k..=k + self.held];
-                let least = window.iter().map(|v| (v - self.level) * side);
+            if self.at(side, k) > best {
+                let least = (k..=k + self.held).map(|j| self.at(side, j));
                 best = least.fold(f64::INFINITY, f64::min).max(best);
             }
         }
@@ -307,7 +317,7 @@ impl<'a> Offsets<'a> {
     /// First time at which an offset of `size` to `side` begins that is held, seconds; refined
     /// between samples.
     fn first(&self, side: f64, size: f64, range: std::ops::Range<usize>) -> Option<f64> {
-        let offset = |k: usize| (self.values[k] - self.level) * side;
+        let offset = |k: usize| self.at(side, k);
         let last = range.end.min(self.values.len().saturating_sub(self.held));
         let k = (range.start..last)
             .find(|&k| offset(k) >= size && (k..=k + self.held).all(|j| offset(j) >= size))?;

@@ -68,7 +68,8 @@ impl Deviation {
 /// What own ship did for one target in the window of action.
 #[derive(Clone, Debug)]
 pub struct Action {
-    /// `x`: signed offset of the heading, radians, positive to starboard.
+    /// `x`: signed offset of the heading, radians, positive to starboard; 0 without way, when how
+    /// she lies is no manoeuvre.
     pub turn_rad: Vec<f64>,
     /// `x_u`: loss of speed as a share of the speed before.
     pub speed_cut: Vec<f64>,
@@ -156,9 +157,12 @@ impl Action {
         let counted = turns.iter().find(acts).or_else(|| turns.first()).copied();
         let side = counted.map_or(0.0, |run| run.change.signum());
         let back = |run: &&Run| counted.is_some_and(|action| back_from(&action, run));
+        let turned = |(heading, speed): (&f64, &f64)| {
+            if *speed < params.run.moving_mps { 0.0 } else { heading - heading_0 }
+        };
         Self {
             // Unwrapped: a ship that turns 200 degrees to port is not 160 to starboard.
-            turn_rad: deviation.heading_rad.iter().map(|h| h - heading_0).collect(),
+            turn_rad: deviation.heading_rad.iter().zip(&deviation.speed_mps).map(turned).collect(),
             speed_cut: deviation.speed_change_mps.iter().map(cut).collect(),
             from: first.unwrap_or(duty.onset).max(duty.begin),
             counted,

@@ -44,7 +44,7 @@ pub fn heading_runs(
         }
     }
     merged.retain(|run| run.change.abs() >= params.turn_detectable_rad);
-    let mut all = with_slow_runs(merged, &smooth, heading_rad, params, sample_s);
+    let mut all = with_slow_runs(merged, &smooth, (heading_rad, speed_mps), params, sample_s);
     let blur = samples_of(3.0 * params.run.smoothing_s, sample_s);
     let mut before = 0;
     for run in &mut all {
@@ -138,22 +138,32 @@ fn fast_runs(
     runs
 }
 
-/// Adds the turns that are large enough but too slow to reach `q_on`, between the others.
+/// Adds the turns that are large enough but too slow to reach `q_on`, between the others and while
+/// she has way: a ship that lies still and swings does not manoeuvre.
 fn with_slow_runs(
     fast: Vec<Run>,
     smooth: &[f64],
-    heading_rad: &[f64],
+    (heading_rad, speed_mps): (&[f64], &[f64]),
     params: &Params,
     sample_s: f64,
 ) -> Vec<Run> {
     let mut all = Vec::with_capacity(fast.len());
+    let between = |from: usize, to: usize, all: &mut Vec<Run>| {
+        let has_way = |k: &usize| speed_mps[*k] >= params.run.moving_mps;
+        let mut begin = from;
+        while let Some(start) = (begin..=to).find(has_way) {
+            let end = (start..=to).find(|k| !has_way(k)).map_or(to, |still| still - 1);
+            slow_runs(smooth, heading_rad, start, end, params, sample_s, all);
+            begin = end + 1;
+        }
+    };
     let mut from = 0;
     for run in &fast {
-        slow_runs(smooth, heading_rad, from, run.start, params, sample_s, &mut all);
+        between(from, run.start, &mut all);
         all.push(*run);
         from = run.end;
     }
-    slow_runs(smooth, heading_rad, from, smooth.len() - 1, params, sample_s, &mut all);
+    between(from, smooth.len() - 1, &mut all);
     all
 }
 

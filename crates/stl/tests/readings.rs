@@ -278,3 +278,37 @@ fn a_ship_that_leaves_her_plan_before_an_overtaker_was_forced() {
     trace.nominal.as_mut().unwrap().targets = run(&fast, &[slow], 300).nominal.unwrap().targets;
     assert_eq!(finding(&trace, Check::R13).status, Finding::Violated);
 }
+
+/// She stops, and then her head swings by 20 degrees: fast, and too slowly for a rate. That is no
+/// manoeuvre of a ship without way, and one of a ship that has a little (section 5).
+#[test]
+fn a_ship_that_lies_still_and_swings_has_not_turned() {
+    for (rate, seconds) in [(2.0, 10), (0.25, 80)] {
+        let judged = |left_mps: f64| {
+            let mut own = own().change_speed(20, left_mps - 5.0);
+            own.turns.push((50, rate, seconds));
+            let trace = run(&own, &[ahead()], 300);
+            let turns = Deviation::of(&trace, &USV).turns.len();
+            (turns, finding(&trace, Check::R14).status)
+        };
+        assert_eq!(judged(0.1), (0, Finding::Violated), "{rate}");
+        assert_eq!(judged(0.5), (1, Finding::Holds), "{rate}");
+    }
+}
+
+/// Risk that opens in the very sample of the closest point opens while Rules 8 and 14 to 17 are
+/// asked; a sample later it does not.
+#[test]
+fn risk_that_opens_at_the_closest_point_is_judged() {
+    let judged = |cpa_s: f64| {
+        let mut trace = run(&own(), &[Script::straight(1000.0, 60.0, 180.0, 5.0)], 200);
+        // on the plan she comes within 1900 m at 100 s
+        let plan = run(&own(), &[Script::straight(2895.0, 60.0, 180.0, 5.0)], 200);
+        trace.nominal = plan.nominal;
+        trace.pairs[0].minimum.hull_s = cpa_s;
+        let duty = lives(&trace, &USV).remove(0).in_sight;
+        (duty.map(|duty| (duty.onset, duty.end)), finding(&trace, Check::R14).status)
+    };
+    assert_eq!(judged(100.0), (Some((100, 100)), Finding::Violated));
+    assert_eq!(judged(99.0), (None, Finding::NotApplicable));
+}

@@ -56,3 +56,24 @@ fn port_to_port_is_asked_of_both_ships() {
         assert_eq!(said(&trace, Check::R14), expected, "{east_m} m");
     }
 }
+
+/// She stops, and then her head swings by 20 degrees: fast, and too slowly for a rate. A ship
+/// without way does not manoeuvre by it, whether it is asked for runs or for an offset; one that
+/// keeps a little way does (section 5).
+#[test]
+fn a_ship_that_lies_still_and_swings_has_not_turned() {
+    for rate in [2.0, 0.25] {
+        for side in [1.0, -1.0] {
+            let judged = |left_mps: f64| {
+                let stops = own(6.0).hold(60.0).speed_to(left_mps, 0.5).hold(20.0);
+                judge(&Scene::new(stops.turn(side * 20.0, rate).hold(300.0), head_on()))
+            };
+            let still = judged(0.1);
+            expect(&still, Check::Turn, Status::NotApplicable, "NO-TURN");
+            expect(&still, Check::R14, Status::Fail, "FAIL-14-NOACT");
+            assert_eq!(still.pairs[0].first_turn_rad, None);
+            let slow = judged(0.5);
+            assert_ne!(slow.status(Check::Turn), Status::NotApplicable, "{rate} {side}: {slow:#?}");
+        }
+    }
+}
