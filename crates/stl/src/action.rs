@@ -183,7 +183,9 @@ impl Action {
 }
 
 /// A run belongs to every target whose risk, extended before its start, contains the start of the
-/// run; where none does, to the target with the next onset.
+/// run; where none does, to the target with the next onset. Where nothing lies ahead on the plan
+/// either (section 5 does not say), it belongs to all whose window of action holds it: she may have
+/// put off a meeting that the plan has behind it.
 fn belongs(
     start: usize,
     lives: &[Life<'_>],
@@ -201,8 +203,8 @@ fn belongs(
     let next = |life: &Life<'_>| {
         life.attention.iter().map(|open| open.start).filter(|onset| *onset > start).min()
     };
-    let mine = next(&lives[target]);
-    mine.is_some() && mine == lives.iter().filter_map(next).min()
+    let soonest = lives.iter().filter_map(next).min();
+    soonest.is_none_or(|onset| next(&lives[target]) == Some(onset))
 }
 
 /// Nothing is left to do: the prediction keeps clear, or the closest point is past.

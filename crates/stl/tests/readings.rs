@@ -312,3 +312,24 @@ fn risk_that_opens_at_the_closest_point_is_judged() {
     assert_eq!(judged(100.0), (Some((100, 100)), Finding::Violated));
     assert_eq!(judged(99.0), (None, Finding::NotApplicable));
 }
+
+/// On the plan they meet at 100 s; as it was sailed the other comes later, and own ship turns
+/// before that: it is her action though the risk of the plan is over, and after the closest point
+/// it is none.
+#[test]
+fn a_run_after_the_planned_meeting_answers_one_that_was_put_off() {
+    let judged = |from_s: usize| {
+        let comes = Script::straight(750.0, 750.0, 270.0, 5.0);
+        let mut trace = run(&own().turn(from_s, 40.0), &[comes], 300);
+        let plan = run(&own(), &[Script::straight(500.0, 500.0, 270.0, 5.0)], 300);
+        trace.nominal = plan.nominal;
+        let lives = lives(&trace, &USV);
+        assert!(lives[0].attention.iter().all(|open| open.end < 110), "{:?}", lives[0].attention);
+        let duty = lives[0].in_sight.as_ref().unwrap();
+        let deviation = Deviation::of(&trace, &USV);
+        let action = Action::of(&deviation, &lives, 0, duty, &USV, 1.0);
+        (action.turns.len(), finding(&trace, Check::R8Magnitude).status)
+    };
+    assert_eq!(judged(112), (1, Finding::Holds));
+    assert_eq!(judged(190), (0, Finding::Violated));
+}
