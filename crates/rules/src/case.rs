@@ -4,6 +4,7 @@
 
 use crate::action::Action;
 use crate::life::{Onset, PairLife};
+use crate::risk::Interval;
 use crate::ruleset::{RuleSet, StageMode};
 use crate::runs::TurnRun;
 use crate::signal::OwnSignals;
@@ -37,6 +38,9 @@ pub(crate) struct Case<'a> {
     pub(crate) later_turns: &'a [TurnRun],
     /// Acted before risk opened, and by that kept it from opening.
     pub(crate) resolved_early: bool,
+    /// When risk is open on the way that was really gone, in samples, from the onset on; absent
+    /// where nobody asks.
+    pub(crate) open: Option<&'a [Interval]>,
     /// Every other target, for what an action does to them.
     pub(crate) others: &'a [PairLife<'a>],
 }
@@ -161,6 +165,7 @@ impl<'a> Case<'a> {
             forced_by: None,
             later_turns: &[],
             resolved_early: false,
+            open: None,
             others,
         };
         if onset.own_stopped {

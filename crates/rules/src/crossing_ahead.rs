@@ -7,6 +7,7 @@
 
 use crate::case::Case;
 use crate::pair::reach_m;
+use crate::risk::Interval;
 use geom::{Vec2, angle};
 use record::DistanceKind;
 
@@ -27,7 +28,8 @@ pub(crate) enum Line {
     Centreline,
 }
 
-/// The nearest crossing ahead within the preferred distance, in samples `from..=to`.
+/// The nearest crossing ahead within the preferred distance, in samples `from..=to`; across her
+/// track, while risk is open (section 9, R15).
 pub(crate) fn crossed_ahead(
     case: &Case<'_>,
     line: Line,
@@ -44,12 +46,17 @@ pub(crate) fn crossed_ahead(
         let (direction, own_m) = (ahead(k), -case.life.actual.relative(k).0);
         (direction, direction.dot(&own_m), direction.perp(&own_m))
     };
+    let open = |k: usize| {
+        let at_risk = |k: usize, open: &[Interval]| open.iter().any(|&(a, b)| (a..b).contains(&k));
+        line == Line::Centreline
+            || case.open.is_none_or(|open| at_risk(k - 1, open) || at_risk(k, open))
+    };
     let mut nearest: Option<CrossedAhead> = None;
     let mut before = seen(from);
     for k in from + 1..=to {
         let now = seen(k);
         let crosses = (before.2 > 0.0 && now.2 <= 0.0) || (before.2 < 0.0 && now.2 >= 0.0);
-        if crosses && before.1.max(now.1) > 0.0 {
+        if crosses && open(k) && before.1.max(now.1) > 0.0 {
             let fraction = before.2 / (before.2 - now.2);
             let along_m = (before.1 + fraction * (now.1 - before.1)) / now.0.norm();
             let found = gap(case, k, now.0 / now.0.norm(), along_m).map(|ahead_m| CrossedAhead {

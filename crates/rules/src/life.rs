@@ -154,6 +154,14 @@ impl<'a> PairLife<'a> {
         }
     }
 
+    /// When risk is open on the way that was really gone, from the onset on.
+    pub(crate) fn open_as_sailed(&self, onset: usize, scanner: &mut RiskScanner) -> Vec<Interval> {
+        let mut open = Vec::new();
+        let forced = (false, Some(onset));
+        scanner.scan_forced(&self.actual, self.trace.sample_s, self.rules, forced, &mut open);
+        open
+    }
+
     /// Whether risk is open at sample `k`.
     pub(crate) fn at_risk(&self, k: usize) -> bool {
         self.risk.iter().any(|&(from, until)| k >= from && k < until)

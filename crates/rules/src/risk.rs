@@ -44,6 +44,19 @@ impl RiskScanner {
         by_radar: bool,
         intervals: &mut Vec<Interval>,
     ) {
+        self.scan_forced(pair, sample_s, rules, (by_radar, None), intervals);
+    }
+
+    /// The same; risk is open at sample `forced` at the latest, as the onset on the nominal track
+    /// binds whatever own ship has done since.
+    pub(crate) fn scan_forced(
+        &mut self,
+        pair: &PairTracks<'_>,
+        sample_s: f64,
+        rules: &RuleSet,
+        (by_radar, forced): (bool, Option<usize>),
+        intervals: &mut Vec<Interval>,
+    ) {
         intervals.clear();
         let n = pair.len();
         let within_m = opening_m(rules, by_radar);
@@ -52,6 +65,9 @@ impl RiskScanner {
         let needed = (rules.risk.persistence_s / sample_s).ceil() as usize + 1;
         let (mut open_since, mut stretch) = (None, 0);
         for k in 0..n {
+            if forced == Some(k) && open_since.is_none() {
+                (open_since, stretch) = (Some(k), 0);
+            }
             let held = self.turning.get(k).copied().unwrap_or(false);
             let holds = !held
                 && if open_since.is_some() {
@@ -64,7 +80,7 @@ impl RiskScanner {
                 let first = k + 1 - needed;
                 match open_since.take() {
                     None => open_since = Some(first),
-                    Some(since) => intervals.push((since, first)),
+                    Some(since) => intervals.push((since, first.max(since))),
                 }
                 stretch = 0;
             }
@@ -159,6 +175,21 @@ mod tests {
         assert!(intervals(own(), wide).is_empty());
         let abreast = Script::new(ship(10.0, 3.0), 0.0, 60.0, 0.0, 5.0).hold(400.0);
         assert!(intervals(own(), abreast).is_empty());
+    }
+
+    /// Too wide to open, too narrow to close before she has passed (150 s).
+    #[test]
+    fn risk_that_the_plan_opened_is_open_as_sailed() {
+        let own = Script::new(ship(10.0, 3.0), 0.0, 0.0, 0.0, 5.0).hold(400.0).track();
+        let wide = Script::new(ship(10.0, 3.0), 1505.0, 220.0, deg(180.0), 5.0).hold(400.0).track();
+        let pair = PairTracks::new(&own, &wide, DistanceKind::Centre);
+        let open = |forced: Option<usize>| {
+            let mut found = Vec::new();
+            let asked = (false, forced);
+            RiskScanner::default().scan_forced(&pair, 1.0, &rules(), asked, &mut found);
+            found
+        };
+        assert_eq!((open(None), open(Some(30))), (vec![], vec![(30, 151)]));
     }
 
     #[test]

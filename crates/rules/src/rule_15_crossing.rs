@@ -4,10 +4,10 @@
 //! way and shall, if the circumstances of the case admit, avoid crossing ahead of the other
 //! vessel."
 //! Reading: crossing the other's projected track within the preferred distance ahead of her bow,
-//! from the onset of risk to the closest point, fails; the angle band of the literature misfires
-//! for hard turns and is only in the score. A turn to port that passes astern is a warning.
-//! Slowing and stopping are lawful (8(e)). Whether she kept out of the way is said by Rules 8 and
-//! 16.
+//! from the onset of risk to the closest point and while risk is open as it was sailed, fails; the
+//! angle band of the literature misfires for hard turns and is only in the score. A turn to port
+//! that passes astern is a warning. Slowing and stopping are lawful (8(e)). Whether she kept out of
+//! the way is said by Rules 8 and 16.
 //! Source: rules specification, section 9 (R15); score after Hagen 2023, equations 31 and 32.
 
 use crate::case::Case;

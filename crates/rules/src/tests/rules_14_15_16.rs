@@ -108,3 +108,22 @@ fn give_way_is_early_substantial_and_well_clear() {
     let cut = judge(&Scene::new(own(6.0).hold(120.0), from_starboard()));
     assert_eq!(verdict(&cut, Check::R16).status, Inconclusive);
 }
+
+/// She turns away to port before the other's bow and draws ahead: the range grows and risk is over
+/// when she crosses the other's track. She stops there, and is passed closer than before.
+#[test]
+fn crossing_ahead_when_risk_is_over_is_no_breach_of_rule_15() {
+    let script = |crosses_at_once: bool| {
+        let comes = Script::new(ship(10.0, 3.0), 0.0, -600.0, deg(90.0), 8.0).hold(60.0);
+        let away = if crosses_at_once { comes } else { comes.turn(-90.0, 6.0).hold(10.0) };
+        let over = away.turn(if crosses_at_once { -30.0 } else { 30.0 }, 3.0).hold(8.0);
+        over.turn(-30.0, 6.0).speed_to(0.3, 0.5).hold(100.0)
+    };
+    let judged = |at_once| judge(&Scene::new(script(at_once), target(-375.0, 0.0, 0.0, 5.0)));
+    let over = judged(false);
+    assert_eq!(over.pairs[0].class, Some(geom::EncounterClass::CrossingStbd));
+    assert!(over.pairs[0].cpa_s.unwrap() > 115.0, "{over:#?}");
+    expect(&over, Check::R15, Warn, "PORT");
+    expect(&over, Check::Turn, Warn, "PORT");
+    expect(&judged(true), Check::R15, Fail, "FAIL-15-AHEAD");
+}
