@@ -163,7 +163,8 @@ fn at_onset(
 }
 
 /// The closest point of the run: its last sample, and whether the run went past it. It did where
-/// contact ended it, or where the prediction at the last sample does not undercut it.
+/// contact ended it, or where the prediction at the last sample does not undercut it. A run that is
+/// still to come closer has its clock run on to its end.
 fn closest(trace: &Trace, target: usize, actual: &PairSignals<'_>) -> (usize, bool) {
     let last = actual.samples() - 1;
     let minimum = &trace.pairs[target].minimum;
@@ -173,7 +174,8 @@ fn closest(trace: &Trace, target: usize, actual: &PairSignals<'_>) -> (usize, bo
         contact.with == record::ContactWith::Target(u8::try_from(target).unwrap_or(u8::MAX))
     });
     let receding = actual.range_rate_mps[last] >= 0.0;
-    (cpa, touched || receding || actual.dcpa_m[last] >= minimum.centre_m + 1e-6)
+    let passed = touched || receding || actual.dcpa_m[last] >= minimum.centre_m + 1e-6;
+    (if passed { cpa } else { last }, passed)
 }
 
 fn duty(

@@ -33,7 +33,8 @@ impl Case<'_> {
             .with(c::SPEED_CLOCK, self.flags(made))
             .with(c::YAW_RAD, self.mean_yaw_rad(from, to))
             .with(c::SPEED_CHANGE, changes);
-        let complete = duty.complete || ends.is_some();
+        // a meeting that the run cuts off is never a pass, though this duty had ended (section 4)
+        let complete = duty.complete;
         Claim::Formula { formula: phi::stand_on(self.hold, p), signals, complete }
     }
 

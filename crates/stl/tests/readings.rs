@@ -333,3 +333,18 @@ fn a_run_after_the_planned_meeting_answers_one_that_was_put_off() {
     assert_eq!(judged(112), (1, Finding::Holds));
     assert_eq!(judged(190), (0, Finding::Violated));
 }
+
+/// The smallest distance so far lies long before the end of a run that is cut off while the ships
+/// still close: the clock goes on to its end, and what was kept so far is no pass though the duty
+/// to hold had ended before (at 52 s she may act).
+#[test]
+fn a_run_that_is_cut_before_a_closer_pass_is_judged_to_its_end() {
+    let cut = |samples: usize| {
+        let mut trace = run(&own().turn(samples - 20, 12.0), &[from_port()], samples);
+        trace.pairs[0].minimum.hull_s = 20.0;
+        trace.pairs[0].minimum.centre_s = 20.0;
+        let life = lives(&trace, &USV).remove(0);
+        ((life.cpa, life.cpa_passed), finding(&trace, Check::R17Hold).status)
+    };
+    assert_eq!(cut(120), ((119, false), Finding::Inconclusive));
+}
