@@ -168,13 +168,13 @@ fn at_onset(
 fn closest(trace: &Trace, target: usize, actual: &PairSignals<'_>) -> (usize, bool) {
     let last = actual.samples() - 1;
     let minimum = &trace.pairs[target].minimum;
-    let (_, at_s) = minimum.of(trace.distance);
+    let (least_m, at_s) = minimum.of(trace.distance);
     let cpa = ((at_s / trace.sample_s + 1e-9).floor().max(0.0) as usize).min(last);
     let touched = trace.contact.is_some_and(|contact| {
         contact.with == record::ContactWith::Target(u8::try_from(target).unwrap_or(u8::MAX))
     });
     let receding = actual.range_rate_mps[last] >= 0.0;
-    let passed = touched || receding || actual.dcpa_m[last] >= minimum.centre_m + 1e-6;
+    let passed = touched || receding || actual.predicted_m(last) >= least_m;
     (if passed { cpa } else { last }, passed)
 }
 
