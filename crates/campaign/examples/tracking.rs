@@ -1,10 +1,11 @@
-//! Do tracks stay with their targets? Sails a campaign's encounters straight on and compares every
+//! Do tracks stay with their ships? Sails a campaign's encounters straight on and compares every
 //! track that a planner is shown with the truth:
 //! `cargo run --config .cargo/optimised.toml -p campaign --example tracking -- 10000 open-sea`.
 //!
-//! A track belongs to the target that it was near for five beats on end (within three standard
-//! deviations). It has diverged when it is shown for twenty beats on end farther from her than
-//! 100 m and than five standard deviations of its own covariance.
+//! A track belongs to the ship that it was nearest to for five beats on end, within three standard
+//! deviations; one that comes to belong to another has changed ships. A track has diverged when it
+//! is shown for twenty beats on end farther from its ship than 100 m and than five standard
+//! deviations of its own covariance.
 #![forbid(unsafe_code)]
 
 mod common;
@@ -37,12 +38,19 @@ fn main() -> Result<(), Error> {
     let all: Vec<&Followed> = seen.iter().flatten().collect();
     let of = |count: &dyn Fn(&Followed) -> bool| all.iter().filter(|f| count(f)).count();
     println!("targets: {}, never tracked: {}", all.len(), of(&|f| f.first_s.is_none()));
+    let changed: usize = all.iter().map(|f| f.changed).sum();
+    println!("tracks that changed ships: {changed}");
     println!("tracks that diverged: {}", all.iter().map(|f| f.diverged.len()).sum::<usize>());
     for line in all.iter().flat_map(|f| &f.diverged).take(60) {
         println!("  {line}");
     }
-    let (shown, held) = all.iter().fold((0, 0), |sum, f| (sum.0 + f.beats, sum.1 + f.held));
-    println!("beats since the first track: {shown}, with a track: {}", share(held, shown));
+    let sum = |part: fn(&Followed) -> u64| all.iter().map(|f| part(f)).sum::<u64>();
+    let (shown, held, double) = (sum(|f| f.beats), sum(|f| f.held), sum(|f| f.double));
+    println!(
+        "beats since the first track: {shown}, with a track: {}, with more than one: {}",
+        share(held, shown),
+        share(double, shown)
+    );
     let mut off_m: Vec<f64> = all.iter().flat_map(|f| f.off_m.iter().copied()).collect();
     let mut error: Vec<f64> = all.iter().flat_map(|f| f.error.iter().copied()).collect();
     println!(
@@ -113,23 +121,40 @@ impl Planner for Watch {
 struct Followed {
     /// When a planner was first shown a track of hers.
     first_s: Option<f64>,
-    /// Beats since then, and those of them with a track of hers.
+    /// Beats since then, those of them with a track of hers, and those with more than one.
     beats: u64,
     held: u64,
+    double: u64,
     /// Of each such track and beat: distance from the truth, and that by the covariance.
     off_m: Vec<f64>,
     error: Vec<f64>,
-    /// Tracks that left her.
+    /// Tracks of hers that became another ship's.
+    changed: usize,
+    /// Tracks that left her and became nobody's.
     diverged: Vec<String>,
 }
 
 /// A track as it was followed so far.
 #[derive(Default)]
 struct Track {
-    near: u32,
-    astray: u32,
-    hers: bool,
-    said: bool,
+    /// The ship that it is nearest to, and for how many beats.
+    near: Option<usize>,
+    near_beats: u32,
+    ship: Option<usize>,
+    astray_beats: u32,
+}
+
+impl Track {
+    /// Whose it is after one more beat nearest to `near`, and whose it was if it changed ships.
+    fn look(&mut self, near: Option<usize>) -> Option<usize> {
+        self.near_beats = if near == self.near { self.near_beats + 1 } else { 1 };
+        self.near = near;
+        if near.is_none() || near == self.ship || self.near_beats < NEAR_BEATS {
+            return None;
+        }
+        self.astray_beats = 0;
+        std::mem::replace(&mut self.ship, near)
+    }
 }
 
 /// Squared distance of a track from a place, by the covariance of the track.
@@ -140,51 +165,57 @@ fn normalised(track: &TargetTrack, place_m: Vec2) -> f64 {
     (c * x * x - 2.0 * b * x * y + a * y * y) / (a * c - b * b)
 }
 
+/// The ship nearest to a track, if one is within `NEAR_SD`.
+fn nearest(track: &TargetTrack, ships_m: &[Vec2]) -> Option<usize> {
+    let errors = ships_m.iter().map(|ship_m| normalised(track, *ship_m)).enumerate();
+    let near = errors.filter(|(_, error)| *error <= NEAR_SD * NEAR_SD);
+    near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(ship, _)| ship)
+}
+
 fn follow(encounter: &Encounter, trace: &Trace, seen: &[Vec<TargetTrack>]) -> Vec<Followed> {
-    let mut all = Vec::new();
-    for target in &trace.targets {
-        let mut followed = Followed::default();
-        let mut tracks: BTreeMap<u32, Track> = BTreeMap::new();
-        for (beat, shown) in seen.iter().enumerate().take(target.north_m.len()) {
-            let t_s = encounter.run.beat_s * beat as f64;
-            let mut any = false;
-            for track in shown {
-                let off_m = track.position_m - target.position_m(beat);
-                let error = normalised(track, target.position_m(beat));
-                let known = tracks.entry(track.id).or_default();
-                known.near = if error <= NEAR_SD * NEAR_SD { known.near + 1 } else { 0 };
-                known.hers |= known.near >= NEAR_BEATS;
-                if !known.hers {
-                    continue;
-                }
-                any = true;
-                followed.off_m.push(off_m.norm());
-                followed.error.push(error);
-                let astray = error > ASTRAY_SD * ASTRAY_SD && off_m.norm() > ASTRAY_M;
-                known.astray = if astray { known.astray + 1 } else { 0 };
-                if known.astray == ASTRAY_BEATS && !known.said {
-                    known.said = true;
-                    let (id, intent) = (&encounter.id, encounter.targets[all.len()].intent.name());
-                    // another track that is with her, to within three standard deviations
-                    let twin = shown.iter().any(|other| {
-                        other.id != track.id && normalised(other, target.position_m(beat)) < 9.0
-                    });
-                    let what = format!(
-                        "{id} at {t_s} s: {:.0} m, {intent}, not fed for {:.0} s{}",
-                        off_m.norm(),
-                        track.since_update_s,
-                        if twin { ", beside a track of hers" } else { "" }
-                    );
-                    followed.diverged.push(what);
-                }
+    let mut all: Vec<Followed> = trace.targets.iter().map(|_| Followed::default()).collect();
+    let mut tracks: BTreeMap<u32, Track> = BTreeMap::new();
+    let beats = trace.targets.iter().map(|t| t.north_m.len()).min().unwrap_or(0);
+    for (beat, shown) in seen.iter().enumerate().take(beats) {
+        let t_s = encounter.run.beat_s * beat as f64;
+        let ships_m: Vec<Vec2> = trace.targets.iter().map(|t| t.position_m(beat)).collect();
+        let mut of_ship = vec![0; ships_m.len()];
+        for track in shown {
+            let known = tracks.entry(track.id).or_default();
+            if let Some(left) = known.look(nearest(track, &ships_m)) {
+                all[left].changed += 1;
             }
-            if any && followed.first_s.is_none() {
-                followed.first_s = Some(t_s);
+            let Some(ship) = known.ship else { continue };
+            let (followed, ship_m) = (&mut all[ship], ships_m[ship]);
+            let (off_m, error) = ((track.position_m - ship_m).norm(), normalised(track, ship_m));
+            of_ship[ship] += 1;
+            followed.off_m.push(off_m);
+            followed.error.push(error);
+            let astray = error > ASTRAY_SD * ASTRAY_SD && off_m > ASTRAY_M;
+            known.astray_beats = if astray { known.astray_beats + 1 } else { 0 };
+            if known.astray_beats == ASTRAY_BEATS {
+                let (id, intent) = (&encounter.id, encounter.targets[ship].intent.name());
+                let not_fed_s = track.since_update_s;
+                followed.diverged.push(format!(
+                    "{id} at {t_s} s: {off_m:.0} m, {intent}, not fed for {not_fed_s:.0} s{}",
+                    if twin(track, shown, ship_m) { ", beside a track of hers" } else { "" }
+                ));
+            }
+        }
+        for (followed, of_ship) in all.iter_mut().zip(of_ship) {
+            if of_ship > 0 {
+                followed.first_s.get_or_insert(t_s);
             }
             followed.beats += u64::from(followed.first_s.is_some());
-            followed.held += u64::from(any);
+            followed.held += u64::from(of_ship > 0);
+            followed.double += u64::from(of_ship > 1);
         }
-        all.push(followed);
     }
     all
+}
+
+/// Whether another track is with the ship, to within `NEAR_SD`.
+fn twin(track: &TargetTrack, shown: &[TargetTrack], ship_m: Vec2) -> bool {
+    let others = shown.iter().filter(|other| other.id != track.id);
+    others.into_iter().any(|other| normalised(other, ship_m) <= NEAR_SD * NEAR_SD)
 }

@@ -8,6 +8,7 @@ pub mod fused;
 pub mod kalman;
 pub mod perfect;
 pub mod radar;
+mod track;
 pub mod tracker;
 
 pub use perfect::own_state;
