@@ -1,6 +1,7 @@
 //! Tests of the crate from outside: known answers, coverage and false alarms by simulation.
 
 mod coverage;
+mod edges;
 mod eprocess;
 mod gate;
 mod gate_answers;
