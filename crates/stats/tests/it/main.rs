@@ -6,5 +6,6 @@ mod eprocess;
 mod gate;
 mod gate_answers;
 mod generator;
+mod known;
 mod simulation;
 mod values;
