@@ -22,18 +22,18 @@ fn a_walk_that_has_seen_both_is_decided_by_their_sum() {
     assert_eq!((decided(5, 14), decided(5, 15)), (SprtDecision::Bad, SprtDecision::Continue));
     assert_eq!((decided(1, 14), decided(1, 15)), (SprtDecision::Continue, SprtDecision::Good));
     let (good, bad) = test.expected_encounters();
-    near(good, 17.734_968_591_252_207);
-    near(bad, 16.203_336_314_311_73);
+    near(good, 17.734_968_591_25);
+    near(bad, 16.203_336_314_31);
 }
 
 #[test]
 fn a_sequence_has_the_bounds_at_which_its_wealth_reaches_the_level() {
     let wide = BetaBinomial::new(2.0, 5.0).unwrap().interval(7, 40, 0.05).unwrap();
-    near(wide.lower, 0.050_486_818_427_870_13);
-    near(wide.upper, 0.381_821_649_426_332_54);
+    near(wide.lower, 0.050_486_818_427_87);
+    near(wide.upper, 0.381_821_649_426_3);
     let tuned = BetaBinomial::tuned(1000).unwrap().interval(3, 1000, 0.01).unwrap();
-    near(tuned.lower, 0.000_155_497_138_661_247_03);
-    near(tuned.upper, 0.013_494_061_090_376_066);
+    near(tuned.lower, 0.000_155_497_138_661_2);
+    near(tuned.upper, 0.013_494_061_090_38);
 }
 
 /// 1 - 1e-15 is no number of the machine; the rate itself is.
@@ -41,20 +41,20 @@ fn a_sequence_has_the_bounds_at_which_its_wealth_reaches_the_level() {
 fn the_wealth_against_a_rate_near_0_or_1_keeps_its_digits() {
     let sequence = BetaBinomial::new(0.5, 0.5).unwrap();
     let n = 1_000_000_000_000_000;
-    near(sequence.ln_wealth(0, n, 1e-15).unwrap(), -16.841_753_140_380_042);
-    near(sequence.ln_wealth(n, n, 1.0 - 1e-15).unwrap(), -16.842_552_418_217_41);
+    near(sequence.ln_wealth(0, n, 1e-15).unwrap(), -16.841_753_140_38);
+    near(sequence.ln_wealth(n, n, 1.0 - 1e-15).unwrap(), -16.842_552_418_22);
 }
 
 #[test]
 fn a_betting_interval_has_the_bounds_of_its_own_stakes() {
     let mixed = [0.2, 0.9, 0.4, 0.6, 0.1, 0.7, 0.3, 0.5, 0.8, 0.6, 0.4, 0.5];
     let interval = betting_interval(&mixed, 0.4).unwrap();
-    near(interval.lower, 0.363_188_663_945_181_76);
-    near(interval.upper, 0.637_088_526_666_492_8);
+    near(interval.lower, 0.363_188_663_945_2);
+    near(interval.upper, 0.637_088_526_666_5);
     let close: Vec<f64> = (0..30).map(|i| 0.5 + 0.03 * f64::from((7 * i) % 5 - 2)).collect();
     let interval = betting_interval(&close, 0.05).unwrap();
-    near(interval.lower, 0.395_497_978_860_993_23);
-    near(interval.upper, 0.604_502_021_139_006_8);
+    near(interval.lower, 0.395_497_978_861);
+    near(interval.upper, 0.604_502_021_139);
 }
 
 #[test]
@@ -118,7 +118,9 @@ fn every_further_attempt_halves_the_level() {
         plan.attempt = attempt;
         plan.alpha_pass_used()
     };
-    assert_eq!([1, 2, 3, 4].map(level).map(|a| (a * 1e6).round()), [5e4, 2.5e4, 12_500.0, 6_250.0]);
+    for (attempt, expected) in [(1, 0.05), (2, 0.025), (3, 0.0125), (4, 0.00625)] {
+        near(level(attempt), expected);
+    }
 }
 
 #[test]

@@ -16,26 +16,26 @@ fn near(found: f64, expected: f64) {
 #[test]
 fn wealth_of_the_bets() {
     let counts = |n11, n10, n01, n00| PairedCounts { n11, n10, n01, n00 };
-    near(Harm::default().ln_e(&counts(30, 17, 6, 952)), 2.244_367_466_252_965_85);
+    near(Harm::default().ln_e(&counts(30, 17, 6, 952)), 2.244_367_466_253);
     let absolute = NonInferiority::absolute(0.01, 0.02).unwrap();
-    near(absolute.ln_e(&counts(30, 7, 11, 952)), 3.999_598_143_994_312_05);
+    near(absolute.ln_e(&counts(30, 7, 11, 952)), 3.999_598_143_994);
     let relative = NonInferiority::relative(0.2, 0.05, 0.03).unwrap();
-    near(relative.ln_e(&counts(300, 7, 11, 682)), 34.427_190_553_197_570_2);
+    near(relative.ln_e(&counts(300, 7, 11, 682)), 34.427_190_553_2);
     let demonstrated = RateTest::demonstrated(0.02).unwrap();
-    near(demonstrated.ln_e(3, 500).unwrap(), 1.206_294_181_394_191_49);
+    near(demonstrated.ln_e(3, 500).unwrap(), 1.206_294_181_394);
     let violated = RateTest::violated(0.02).unwrap();
-    near(violated.ln_e(25, 500).unwrap(), 4.521_689_303_959_830_88);
+    near(violated.ln_e(25, 500).unwrap(), 4.521_689_303_96);
 }
 
 #[test]
 fn betting_bounds_of_a_mean() {
     let mixed = [0.5, 0.5, 1.0, 0.8, 0.3, 0.9, 0.7, 0.6];
     let interval = MeanBets::planned(0.1, 10.0).unwrap().interval(&mixed, 40, 0.2).unwrap();
-    near(interval.lower, 0.037_401_799_616_754_103_1);
-    near(interval.upper, 0.273_122_265_329_792_511);
+    near(interval.lower, 0.037_401_799_616_75);
+    near(interval.upper, 0.273_122_265_329_8);
     let same = MeanBets::planned(0.02, 20.0).unwrap().interval(&[0.9; 12], 200, 0.1).unwrap();
-    near(same.lower, 0.018_118_114_276_571_474_1);
-    near(same.upper, 0.107_612_570_815_104_033);
+    near(same.lower, 0.018_118_114_276_57);
+    near(same.upper, 0.107_612_570_815_1);
 }
 
 #[test]
@@ -49,8 +49,8 @@ fn betting_bounds_of_a_risk_ratio() {
         event(2.0, true, true, 0),
     ];
     let interval = betting_ratio(&better, 2.0, 1_000, 0.1).unwrap();
-    near(interval.lower, 0.030_727_789_377_258_275);
-    near(interval.upper, 0.392_398_485_596_077_676);
+    near(interval.lower, 0.030_727_789_377_26);
+    near(interval.upper, 0.392_398_485_596_1);
     let worse = [
         event(1.0, true, true, 20),
         event(1.0, true, false, 60),
@@ -58,8 +58,8 @@ fn betting_bounds_of_a_risk_ratio() {
         event(0.5, true, false, 10),
     ];
     let interval = betting_ratio(&worse, 1.0, 1_000, 0.1).unwrap();
-    near(interval.lower, 2.473_477_635_122_323_75);
-    near(interval.upper, 8.283_952_534_534_085_77);
+    near(interval.lower, 2.473_477_635_122);
+    near(interval.upper, 8.283_952_534_534);
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn two_encounters_are_enough_for_a_risk_ratio() {
     };
     assert!(of(1, 0).is_err());
     // R = 1/2, z = (1, 1), x = (1, 0): sqrt(2 / 1 * (1/4 + 1/4)) / 2 = 1/2
-    near(of(1, 1).unwrap().upper, 0.5 + 0.5 * 1.959_963_984_540_054);
+    near(of(1, 1).unwrap().upper, 0.5 + 0.5 * 1.959_963_984_54);
 }
 
 #[test]
@@ -107,14 +107,14 @@ fn rates_of_weighted_events() {
     let events =
         [WeightedCount { weight: 0.01, count: 3 }, WeightedCount { weight: 0.002, count: 2 }];
     let interval = fay_feuer(&events, 0.01, 100, 0.05).unwrap();
-    near(interval.lower, 0.008_758_849_617_346_962_07);
-    near(interval.upper, 0.091_530_334_938_901_979_6);
+    near(interval.lower, 0.008_758_849_617_347);
+    near(interval.upper, 0.091_530_334_938_9);
     let fitness = ImportanceFitness::new(&[0.5, 0.25, 1.0, 0.125, 0.5], 100).unwrap();
     near(fitness.rate, 0.023_75);
-    near(fitness.rate_error, 0.012_397_941_952_052_552_1);
-    near(fitness.events_effective, 3.574_257_425_742_574_26);
-    near(fitness.share_max, 0.421_052_631_578_947_368);
-    near(last_particle_cv_squared(0.001, 100).unwrap(), 0.071_519_305_237_606_417_4);
+    near(fitness.rate_error, 0.012_397_941_952_05);
+    near(fitness.events_effective, 3.574_257_425_743);
+    near(fitness.share_max, 0.421_052_631_578_9);
+    near(last_particle_cv_squared(0.001, 100).unwrap(), 0.071_519_305_237_61);
 }
 
 /// 1471 and (470 + 0.3 * 1001) of 2^14.
@@ -132,11 +132,11 @@ fn score_intervals_of_a_difference() {
         (interval.lower, interval.upper)
     };
     let (lower, upper) = of(9, 4, 60, 0.05);
-    near(lower, -0.038_189_199_820_034_181_4);
-    near(upper, 0.209_374_715_730_698_543);
+    near(lower, -0.038_189_199_820_03);
+    near(upper, 0.209_374_715_730_7);
     let (lower, upper) = of(3, 12, 500, 0.1);
-    near(lower, -0.032_789_729_966_475_172_2);
-    near(upper, -0.005_810_856_443_214_085_55);
+    near(lower, -0.032_789_729_966_48);
+    near(upper, -0.005_810_856_443_214);
 }
 
 /// Order statistics 116 and 990 of 1,000 resampled means, 320 and 3,991 of 4,000, 156 and 1,943 of
