@@ -3,9 +3,11 @@
 
 use crate::gate::{plan, quiet};
 use stats::{
-    AbsolutePlan, AbsoluteTest, BetaBinomial, Claim, CorpusResult, Gate, GateError, LayerVerdict,
-    MeanBets, PlanError, RatchetPlan, Sprt, SprtDecision, StatsError, WeightedNonInferiority,
-    betting_interval, check_intervals, clopper_pearson, fay_feuer, judge_absolute, unpaired_needed,
+    AbsolutePlan, AbsoluteTest, BetaBinomial, Claim, CorpusResult, Gate, GateError,
+    ImportanceFitness, LayerVerdict, MeanBets, PlanError, RatchetPlan, Sprt, SprtDecision,
+    StatsError, WeightedNonInferiority, bca_mean, betting_interval, binomial_lower_tail,
+    binomial_upper_tail, check_intervals, clopper_pearson, fay_feuer, judge_absolute,
+    last_particle, quantile_rank_bounds, unpaired_needed,
 };
 
 #[track_caller]
@@ -157,4 +159,28 @@ fn a_row_that_lacks_a_ratchet_is_told_how_many_planners_there_are() {
     let mut gate = Gate::new(plan, CorpusResult::default()).unwrap();
     let shape = GateError::Shape { id: 0, metrics: 1, planners: 3 };
     assert_eq!(gate.take(&[quiet(0, 1)]), Err(shape));
+}
+
+/// Each rank is the last that is far enough out, as counting through all of them finds it.
+#[test]
+fn ranks_about_a_quantile_are_the_nearest_that_hold() {
+    for (n, q) in [(1, 0.01), (2, 0.99), (7, 0.5), (8, 0.99), (45, 0.9), (60, 0.999), (61, 0.02)] {
+        let half = 0.1;
+        let below = |k| binomial_lower_tail(k, n, q).unwrap() <= half;
+        let above = |k| binomial_upper_tail(k, n, q).unwrap() <= half;
+        let lower = (1..=n).rev().find(|l| below(l - 1));
+        let upper = (1..=n).find(|&u| above(u));
+        assert_eq!(quantile_rank_bounds(n, q, 2.0 * half).unwrap(), (lower, upper), "{n} {q}");
+    }
+}
+
+#[test]
+fn the_fewest_that_are_enough_are_taken_and_fewer_are_not() {
+    assert!(clopper_pearson(0, 0, 0.05).is_err());
+    assert!(ImportanceFitness::new(&[0.5], 2).is_ok());
+    assert!(ImportanceFitness::new(&[0.5], 1).is_err());
+    assert!(last_particle(2, 3, 0.05).is_ok());
+    assert!(last_particle(1, 3, 0.05).is_err());
+    assert!(bca_mean(&[1.0, 2.0], 0.1, 1_000, &mut || 0.5).is_ok());
+    assert!(bca_mean(&[1.0, 2.0], 0.1, 999, &mut || 0.5).is_err());
 }

@@ -3,8 +3,8 @@
 //! weights, a largest weight that is not 1, every kind of outcome.
 
 use stats::{
-    Harm, ImportanceFitness, MeanBets, NonInferiority, PairedCounts, RateTest, RiskCounts,
-    RiskEvent, RiskPart, RiskSums, WeightedCount, bca_mean, betting_ratio, fay_feuer,
+    Forecast, Harm, ImportanceFitness, MeanBets, NonInferiority, PairedCounts, RateTest,
+    RiskCounts, RiskEvent, RiskPart, RiskSums, WeightedCount, bca_mean, betting_ratio, fay_feuer,
     last_particle_cv_squared, mcnemar_exact, mcnemar_randomised, tango,
 };
 
@@ -165,4 +165,19 @@ fn bootstrap_of_samples_that_lean_to_one_side() {
     expect(of(&waits.map(|x| -x), 0.1, 1_000), [-41.0 / 15.0, -104.0 / 15.0, -16.0 / 15.0]);
     let rising: Vec<f64> = (0..12).map(|v| 0.1 * f64::from(v * v) - 0.3 * f64::from(v)).collect();
     expect(of(&rising, 0.1, 2_000), [77.0 / 30.0, 1.4, 4.2]);
+}
+
+/// What is missing to 1000, divided by the best bet's growth at the rates seen so far (half an
+/// event added to each kind of difference), rounded up.
+#[test]
+fn forecasts_of_small_counts() {
+    let counts = PairedCounts { n11: 4, n10: 1, n01: 2, n00: 33 };
+    let narrow = NonInferiority::absolute(0.01, 0.02).unwrap();
+    assert_eq!(narrow.forecast(&counts, 0.001), Forecast::Encounters(1_130));
+    let wide = NonInferiority::absolute(0.1, 0.2).unwrap();
+    assert_eq!(wide.forecast(&counts, 0.001), Forecast::Encounters(102));
+    let relative = NonInferiority::relative(0.5, 0.1, 0.05).unwrap();
+    assert_eq!(relative.forecast(&counts, 0.001), Forecast::Encounters(233));
+    let rate = RateTest::demonstrated(0.2).unwrap();
+    assert_eq!(rate.forecast(2, 25, 0.001).unwrap(), Forecast::Encounters(179));
 }
