@@ -4,8 +4,9 @@
 
 use stats::{
     Forecast, Harm, ImportanceFitness, MeanBets, NonInferiority, PairedCounts, RateTest,
-    RiskCounts, RiskEvent, RiskPart, RiskSums, WeightedCount, bca_mean, betting_ratio, fay_feuer,
-    last_particle_cv_squared, mcnemar_exact, mcnemar_randomised, tango,
+    RiskCounts, RiskEvent, RiskPart, RiskSums, WeightedCount, bca_mean, beta_quantile,
+    betting_ratio, binomial_upper_tail, clopper_pearson, fay_feuer, last_particle_cv_squared,
+    ln_binomial_pmf, mcnemar_exact, mcnemar_randomised, tango,
 };
 
 #[track_caller]
@@ -180,4 +181,24 @@ fn forecasts_of_small_counts() {
     assert_eq!(relative.forecast(&counts, 0.001), Forecast::Encounters(233));
     let rate = RateTest::demonstrated(0.2).unwrap();
     assert_eq!(rate.forecast(2, 25, 0.001).unwrap(), Forecast::Encounters(179));
+}
+
+/// 1 less what is left over would be nothing at all here.
+#[test]
+fn small_tails_and_small_quantiles_keep_their_digits() {
+    near(binomial_upper_tail(90, 100, 0.5).unwrap(), 1.531_645_087_719e-17);
+    near(binomial_upper_tail(60, 80, 0.2).unwrap(), 5.116_191_901_477e-26);
+    near(ln_binomial_pmf(0, 1_000_000_000_000_000, 1e-15).unwrap(), -1.0);
+    near(beta_quantile(0.01, 0.01, 5.0).unwrap(), 1.253_990_451_123e-201);
+    near(beta_quantile(0.025, 3.5, 40.5).unwrap(), 0.020_040_880_111_35);
+}
+
+#[test]
+fn both_sides_of_a_rate_at_half_the_level_each() {
+    let few = clopper_pearson(3, 40, 0.05).unwrap();
+    near(few.lower, 0.015_742_179_851_04);
+    near(few.upper, 0.203_864_748_732_9);
+    let most = clopper_pearson(37, 40, 0.05).unwrap();
+    near(most.lower, 0.796_135_251_267_1);
+    near(most.upper, 0.984_257_820_149);
 }
