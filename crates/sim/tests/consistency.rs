@@ -33,18 +33,9 @@ const RADAR: Radar = Radar {
     clutter_range_m: 2000.0,
     latency_s: 0.0,
 };
-const TRACKER: Tracker = Tracker {
-    acceleration_sd_mps2: 1e-4,
-    speed_sd_mps: 8.0,
-    gate: 13.8,
-    confirm_hits: 3,
-    confirm_scans: 5,
-    radar_coast_s_max: 20.0,
-    ais_coast_s_max: 95.0,
-    frame_drop: 0.0,
-};
+const TRACKER: Tracker = scenes::tracker(1e-4);
 /// A filter that expects any manoeuvre believes every measurement: its tracks err as they do.
-const CREDULOUS: Tracker = Tracker { acceleration_sd_mps2: 1000.0, ..TRACKER };
+const CREDULOUS: Tracker = scenes::tracker(1000.0);
 
 /// Sails as told and keeps what it is shown.
 struct Watch {

@@ -35,16 +35,7 @@ const RADAR: Radar = Radar {
     clutter_range_m: 2000.0,
     latency_s: 0.5,
 };
-const TRACKER: Tracker = Tracker {
-    acceleration_sd_mps2: 0.1,
-    speed_sd_mps: 8.0,
-    gate: 13.8,
-    confirm_hits: 3,
-    confirm_scans: 5,
-    radar_coast_s_max: 20.0,
-    ais_coast_s_max: 95.0,
-    frame_drop: 0.0,
-};
+const TRACKER: Tracker = scenes::tracker(0.1);
 
 fn settings() -> AisRadar {
     AisRadar { ais: Some(AIS), radar: Some(RADAR), tracker: TRACKER }

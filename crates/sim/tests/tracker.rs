@@ -1,6 +1,8 @@
 //! The tracker and its ships: one track through a hard turn, two tracks for two ships. Plots and
 //! reports are exact, so that what fails is the association and not the luck of the noise.
 
+mod scenes;
+
 use geom::{Vec2, angle, units::deg};
 use nalgebra::Matrix2;
 use planner_api::TargetTrack;
@@ -8,16 +10,7 @@ use record::Tracker as Settings;
 use sim::sensing::tracker::Tracker;
 use sim::sensing::{Measurement, Report};
 
-const SETTINGS: Settings = Settings {
-    acceleration_sd_mps2: 0.15,
-    speed_sd_mps: 8.0,
-    gate: 13.8,
-    confirm_hits: 3,
-    confirm_scans: 5,
-    radar_coast_s_max: 20.0,
-    ais_coast_s_max: 95.0,
-    frame_drop: 0.0,
-};
+const SETTINGS: Settings = scenes::tracker(0.15);
 const ROTATION_S: f64 = 2.5;
 const LENGTH_M: f64 = 12.0;
 

@@ -5,7 +5,8 @@ use geom::{HullOutline, Vec2, units::deg};
 use planner_api::{Command, Mission, Planner, Situation};
 use record::{
     DistanceKind, Encounter, EncounterId, Fluctuation, Intent, Motion, OwnShip, RunLimits,
-    RunUntil, Seed, Sensing, Target, Trace, Vessel, Visibility, Waves, Waypoint, Weather, Wind,
+    RunUntil, Seed, Sensing, Target, Trace, Tracker, Vessel, Visibility, Waves, Waypoint, Weather,
+    Wind,
 };
 use std::sync::atomic::AtomicU64;
 
@@ -19,6 +20,20 @@ pub(crate) fn kinematic() -> Vessel {
 
 pub(crate) fn viknes() -> Vessel {
     Vessel::Model("viknes".to_owned())
+}
+
+/// A tracker that loses no frame and expects accelerations as large as it is told.
+pub(crate) const fn tracker(acceleration_sd_mps2: f64) -> Tracker {
+    Tracker {
+        acceleration_sd_mps2,
+        speed_sd_mps: 8.0,
+        gate: 13.8,
+        confirm_hits: 3,
+        confirm_scans: 5,
+        radar_coast_s_max: 20.0,
+        ais_coast_s_max: 95.0,
+        frame_drop: 0.0,
+    }
 }
 
 /// A meeting of own ship, from the origin to the north at 7 m/s, with one target.
