@@ -21,7 +21,7 @@ pub fn seconds(text: &str, order: Order) -> Option<f64> {
     };
     let in_range = (1970..=2200).contains(&year)
         && (1..=12).contains(&month)
-        && (1..=31).contains(&day)
+        && (1..=days_of(year, month)).contains(&day)
         && parts.next().is_none();
     let mut clock = clock.trim_end_matches('Z').split(':');
     let hours: f64 = clock.next()?.parse().ok()?;
@@ -37,6 +37,11 @@ pub fn seconds(text: &str, order: Order) -> Option<f64> {
     Some(days(year, month, day) as f64 * 86_400.0 + hours * 3600.0 + minutes * 60.0 + seconds)
 }
 
+fn days_of(year: i64, month: i64) -> i64 {
+    let (next_year, next_month) = if month == 12 { (year + 1, 1) } else { (year, month + 1) };
+    days(next_year, next_month, 1) - days(year, month, 1)
+}
+
 /// Days since 1970-01-01. Years begin in March here, so that a leap day is the last of its year.
 fn days(year: i64, month: i64, day: i64) -> i64 {
     let year = if month <= 2 { year - 1 } else { year };
@@ -48,6 +53,22 @@ fn days(year: i64, month: i64, day: i64) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Catches a day that no month has, which was read as one of the next month.
+    #[test]
+    fn a_day_that_the_calendar_lacks_is_none() {
+        for (last, none) in [
+            ("29/02/2024", "30/02/2024"),
+            ("28/02/2023", "29/02/2023"),
+            ("28/02/2100", "29/02/2100"),
+            ("30/04/2024", "31/04/2024"),
+            ("31/12/2024", "32/12/2024"),
+        ] {
+            let at_noon = |date: &str| seconds(&format!("{date} 12:00:00"), Order::DayFirst);
+            assert!(at_noon(last).is_some(), "{last}");
+            assert_eq!(at_noon(none), None, "{none}");
+        }
+    }
 
     /// Known instants: 2000-03-01 is day 11,017 and 2024-02-29 is day 19,782.
     #[test]
