@@ -4,10 +4,10 @@
 use crate::gate::{plan, quiet};
 use stats::{
     AbsolutePlan, AbsoluteTest, BetaBinomial, Claim, CorpusResult, Gate, GateError,
-    ImportanceFitness, LayerVerdict, MeanBets, PlanError, RatchetPlan, Sprt, SprtDecision,
-    StatsError, WeightedNonInferiority, bca_mean, betting_interval, binomial_lower_tail,
-    binomial_upper_tail, check_intervals, clopper_pearson, fay_feuer, judge_absolute,
-    last_particle, quantile_rank_bounds, unpaired_needed,
+    ImportanceFitness, LayerVerdict, MeanBets, Observation, PlanError, RatchetPlan, Sprt,
+    SprtDecision, StatsError, WeightedCount, WeightedNonInferiority, bca_mean, betting_interval,
+    binomial_lower_tail, binomial_upper_tail, check_intervals, clopper_pearson, fay_feuer,
+    judge_absolute, last_particle, quantile_rank_bounds, unpaired_needed,
 };
 
 #[track_caller]
@@ -183,4 +183,45 @@ fn the_fewest_that_are_enough_are_taken_and_fewer_are_not() {
     assert!(last_particle(1, 3, 0.05).is_err());
     assert!(bca_mean(&[1.0, 2.0], 0.1, 1_000, &mut || 0.5).is_ok());
     assert!(bca_mean(&[1.0, 2.0], 0.1, 999, &mut || 0.5).is_err());
+}
+
+/// Of 1,000 pairs 6 break, 4 fix, and 3 are undetermined, which count for no difference.
+#[test]
+fn the_difference_that_is_shown_is_that_of_the_pairs() {
+    let mut plan = plan(1, 1e-3, 20_000);
+    plan.look_every = 1_000;
+    let mut gate = Gate::new(plan, CorpusResult::default()).unwrap();
+    let before = gate.result().metrics[0].difference;
+    assert_eq!((before.n, before.value.to_bits()), (0, 0));
+    let rows: Vec<_> = (0..1_000)
+        .map(|id| {
+            let mut row = quiet(id, 1);
+            match id {
+                10..16 => row.candidate[0] = Observation::Event,
+                20..24 => row.baseline[0] = Observation::Event,
+                30..32 => row.candidate[0] = Observation::Undetermined,
+                32 => row.baseline[0] = Observation::Undetermined,
+                _ => {}
+            }
+            row
+        })
+        .collect();
+    gate.take(&rows).unwrap();
+    let metric = &gate.result().metrics[0];
+    near(metric.difference.value, 0.002);
+    assert_eq!((metric.difference.n, metric.undetermined), (1_000, 3));
+}
+
+#[test]
+fn a_weight_that_did_not_occur_is_not_the_largest() {
+    let events = [WeightedCount { weight: 1.0, count: 3 }, WeightedCount { weight: 9.0, count: 0 }];
+    near(ImportanceFitness::of_counts(&events, 10).unwrap().share_max, 1.0 / 3.0);
+}
+
+/// Draws that always take the smaller of two: every resampled mean lies below the mean.
+#[test]
+fn a_bootstrap_whose_means_lie_on_one_side_has_an_interval() {
+    let interval = bca_mean(&[1.0, 2.0], 0.1, 1_000, &mut || 0.0).unwrap();
+    near(interval.lower, 1.0);
+    near(interval.upper, 1.0);
 }
