@@ -153,6 +153,32 @@ fn transponders_come_in_their_shares() {
     }
 }
 
+/// The first report of a class A station at 11.7 knots comes a share of her 10 s after the declared
+/// delay, which is exponential; and no report is ready sooner than its latency.
+#[test]
+fn the_first_report_is_as_late_as_declared() {
+    let ais = Ais { first_delay_s_mean: 20.0, dropout: 0.0, latency_s: 3.0, ..AIS };
+    let settings = AisRadar { ais: Some(ais), radar: None, tracker: TRACKER };
+    let mut encounter = Meeting::default().encounter(viknes(), kinematic());
+    let first_s = (0..1500).map(|j| {
+        encounter.id.j = j;
+        let (all, _, _) = measured(&encounter, &settings, 400, |_| Vec2::zeros());
+        assert!(all.iter().all(|m| (m.ready_s - m.t_s - 3.0).abs() < 1e-9));
+        all[0].t_s
+    });
+    let first_s: Vec<f64> = first_s.collect();
+    let n = first_s.len() as f64;
+    // half an interval for the phase, half a beat for the grid of beats
+    let expected_s = 20.0 + 5.0 + 0.5;
+    let sd_s = (20.0f64 * 20.0 + 100.0 / 12.0).sqrt();
+    let mean_s = first_s.iter().sum::<f64>() / n;
+    assert!((mean_s - expected_s).abs() < 4.5 * sd_s / n.sqrt(), "{mean_s}");
+    let variance_s2 = first_s.iter().map(|t| (t - mean_s) * (t - mean_s)).sum::<f64>() / n;
+    // the fourth moment of an exponential law is nine variances squared
+    let spread = variance_s2 / (sd_s * sd_s) - 1.0;
+    assert!(spread.abs() < 4.5 * (8.0 / n).sqrt(), "{}", variance_s2.sqrt());
+}
+
 /// What each sensor gets wrong about target 0: AIS in metres, radar in range and bearing, with the
 /// time; range and bearing are those from own ship.
 fn errors(all: &[Measurement], truth_m: Vec2, own_m: impl Fn(f64) -> Vec2) -> Vec<[f64; 4]> {
@@ -190,9 +216,9 @@ fn errors_depend_on_no_planner_no_other_target_and_no_other_sensor() {
     let settings = settings();
     let encounter = Meeting::default().encounter(viknes(), kinematic());
     let (stays, leaves) = (|_: f64| Vec2::zeros(), |t_s: f64| Vec2::new(7.0, -3.0) * t_s);
-    let (all, _, targets) = measured(&encounter, &settings, 300, stays);
+    let (base_all, _, targets) = measured(&encounter, &settings, 300, stays);
     let truth_m = targets[0].pose.position_m;
-    let base = errors(&all, truth_m, stays);
+    let base = errors(&base_all, truth_m, stays);
     let (moved, _, _) = measured(&encounter, &settings, 300, leaves);
     assert_same(&base, &errors(&moved, truth_m, leaves));
 
@@ -202,11 +228,18 @@ fn errors_depend_on_no_planner_no_other_target_and_no_other_sensor() {
     let (all, _, _) = measured(&crowded, &settings, 300, stays);
     assert_same(&base, &errors(&all, truth_m, stays));
 
+    let clutter = |all: &[Measurement]| -> Vec<Measurement> {
+        all.iter().filter(|m| m.origin.is_none()).copied().collect()
+    };
+    assert!(clutter(&base_all).len() > 30);
+    assert_eq!(clutter(&base_all), clutter(&all));
+
+    let (plots, reports): (Vec<Measurement>, Vec<Measurement>) =
+        base_all.into_iter().partition(|m| m.report.is_none());
     let alone = AisRadar { ais: None, ..settings };
-    let (all, _, _) = measured(&encounter, &alone, 300, stays);
-    let (plots, _): (Vec<Measurement>, Vec<Measurement>) =
-        measured(&encounter, &settings, 300, stays).0.into_iter().partition(|m| m.report.is_none());
-    assert_eq!(all, plots);
+    assert_eq!(measured(&encounter, &alone, 300, stays).0, plots);
+    let alone = AisRadar { radar: None, ..settings };
+    assert_eq!(measured(&encounter, &alone, 300, stays).0, reports);
 }
 
 /// Looks and keeps what it saw.
