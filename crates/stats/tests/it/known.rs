@@ -3,8 +3,8 @@
 //! weights, a largest weight that is not 1, every kind of outcome.
 
 use stats::{
-    Forecast, Harm, ImportanceFitness, MeanBets, NonInferiority, PairedCounts, RateTest,
-    RiskCounts, RiskEvent, RiskPart, RiskSums, WeightedCount, bca_mean, beta_quantile,
+    BetaBinomial, Forecast, Harm, ImportanceFitness, MeanBets, NonInferiority, PairedCounts,
+    RateTest, RiskCounts, RiskEvent, RiskPart, RiskSums, WeightedCount, bca_mean, beta_quantile,
     betting_ratio, binomial_upper_tail, clopper_pearson, fay_feuer, last_particle_cv_squared,
     ln_binomial_pmf, mcnemar_exact, mcnemar_randomised, tango,
 };
@@ -201,4 +201,17 @@ fn both_sides_of_a_rate_at_half_the_level_each() {
     let most = clopper_pearson(37, 40, 0.05).unwrap();
     near(most.lower, 0.796_135_251_267_1);
     near(most.upper, 0.984_257_820_149);
+}
+
+/// Shapes at which Stirling's formula no longer serves.
+#[test]
+fn a_sequence_may_have_shapes_near_nothing() {
+    for (s, t, expected) in [
+        (1e-9, 3.0, -20.344_722_599_97),
+        (3.0, 1e-9, -23.745_919_980_04),
+        (1e-9, 2e-9, -20.144_051_906_21),
+        (1e-12, 0.5, -26.761_033_917_87),
+    ] {
+        near(BetaBinomial::new(s, t).unwrap().ln_wealth(2, 10, 0.3).unwrap(), expected);
+    }
 }
