@@ -7,7 +7,8 @@ use stats::{
     ImportanceFitness, LayerVerdict, MeanBets, Observation, PlanError, RatchetPlan, Sprt,
     SprtDecision, StatsError, WeightedCount, WeightedNonInferiority, bca_mean, betting_interval,
     binomial_lower_tail, binomial_upper_tail, check_intervals, clopper_pearson, fay_feuer,
-    judge_absolute, last_particle, quantile_rank_bounds, unpaired_needed,
+    judge_absolute, last_particle, normal_quantile, quantile_rank_bounds, student_t_quantile,
+    unpaired_needed,
 };
 
 #[track_caller]
@@ -224,4 +225,10 @@ fn a_bootstrap_whose_means_lie_on_one_side_has_an_interval() {
     let interval = bca_mean(&[1.0, 2.0], 0.1, 1_000, &mut || 0.0).unwrap();
     near(interval.lower, 1.0);
     near(interval.upper, 1.0);
+}
+
+#[test]
+fn the_middle_of_a_symmetric_distribution_is_0() {
+    let middle = (student_t_quantile(0.5, 7.0).unwrap(), normal_quantile(0.5).unwrap());
+    assert!(middle.0.abs() < 1e-12 && middle.1.abs() < 1e-12, "{middle:?}");
 }

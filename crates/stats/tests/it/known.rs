@@ -215,3 +215,10 @@ fn a_sequence_may_have_shapes_near_nothing() {
         near(BetaBinomial::new(s, t).unwrap().ln_wealth(2, 10, 0.3).unwrap(), expected);
     }
 }
+
+/// C(33, 16) / 2^33: from 16 on Stirling's error is a series.
+#[test]
+fn the_series_of_stirling_begins_with_all_its_digits() {
+    let found = ln_binomial_pmf(16, 33, 0.5).unwrap();
+    assert!((found / -1.996_323_497_114_239_5 - 1.0).abs() < 1e-13, "{found}");
+}
