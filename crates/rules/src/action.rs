@@ -63,9 +63,10 @@ impl Action {
         own: &OwnSignals,
         turns: impl Iterator<Item = TurnRun>,
         speeds: impl Iterator<Item = SpeedRun>,
-        from: usize,
+        (from, released): (usize, Option<usize>),
     ) -> Self {
         let to = life.passed.map_or(own.heading_rad.len() - 1, |passed| passed.k);
+        let to = released.map_or(to, |k| k.min(to));
         let inside = |start: usize| start >= from && start <= to;
         let runs = turns.filter(|run| inside(run.start));
         let runs: Vec<_> = runs.skip_while(|run| leads_back(life, own, run)).collect();

@@ -58,9 +58,9 @@ impl<'a> Case<'a> {
         self.role == Role::StandOn
     }
 
-    /// The run went past the closest point of this pair.
+    /// The run went past the closest point of this pair, or its encounter was over before.
     pub(crate) fn complete(&self) -> bool {
-        self.life.passed.is_some()
+        self.life.passed.is_some() || !self.restricted && self.released_s.is_some()
     }
 
     pub(crate) fn onset_s(&self) -> f64 {
@@ -72,7 +72,8 @@ impl<'a> Case<'a> {
         self.onset_s().max(self.life.pair().tracked_s.unwrap_or(0.0))
     }
 
-    /// The last sample of stages, actions and duties: the closest point, or where the run was cut.
+    /// The last sample of stages, actions and duties: the closest point, the release if the ships
+    /// came closest in another meeting after it, or where the run was cut.
     pub(crate) fn end(&self) -> usize {
         self.action.window.1
     }
@@ -175,7 +176,7 @@ impl<'a> Case<'a> {
         if case.stands_on() {
             case.may_act = case.find_may_act();
         }
-        case.released_s = case.find_release();
+        case.released_s = release(life, onset.k, class).map(|k| life.time_s(k));
         case
     }
 
@@ -262,43 +263,39 @@ impl<'a> Case<'a> {
         turn_rad.abs() >= m.detectable_turn_rad
             || (target.sog_mps(to) - speed_mps).abs() >= m.detectable_speed_fraction * speed_mps
     }
+}
 
-    /// Finally past and clear (13(d) has no number): held for a while, first after the onset. What
-    /// comes after it is another encounter, even where the ships then meet closer.
-    fn find_release(&self) -> Option<f64> {
-        let r = &self.rules().release;
-        let needed = (r.held_s / self.life.trace.sample_s).ceil() as usize + 1;
-        let mut stretch = 0;
-        for k in self.onset.k..self.life.actual.len() {
-            stretch = if self.clear_at(k) { stretch + 1 } else { 0 };
-            if stretch == needed {
-                return Some(self.life.time_s(k));
-            }
-        }
-        None
+/// Finally past and clear (13(d) has no number): held for a while, first after the onset. What
+/// comes after that sample is another encounter, even where the ships then meet closer.
+pub(crate) fn release(life: &PairLife<'_>, from: usize, class: EncounterClass) -> Option<usize> {
+    let needed = (life.rules.release.held_s / life.trace.sample_s).ceil() as usize + 1;
+    let mut stretch = 0;
+    (from..life.actual.len()).find(|&k| {
+        stretch = if clear_at(life, k, class) { stretch + 1 } else { 0 };
+        stretch == needed
+    })
+}
+
+fn clear_at(life: &PairLife<'_>, k: usize, class: EncounterClass) -> bool {
+    let (position_m, velocity_mps) = life.actual.relative(k);
+    let opening =
+        position_m.dot(&velocity_mps) > 0.0 && life.actual.tcpa_s(k).is_some_and(|t| t < 0.0);
+    if !opening || life.distance_at_m(k) <= life.rules.distance.r_pref_m {
+        return false;
     }
-
-    fn clear_at(&self, k: usize) -> bool {
-        let (position_m, velocity_mps) = self.life.actual.relative(k);
-        let opening = position_m.dot(&velocity_mps) > 0.0
-            && self.life.actual.tcpa_s(k).is_some_and(|t| t < 0.0);
-        if !opening || self.life.distance_at_m(k) <= self.rules().distance.r_pref_m {
-            return false;
-        }
-        let r = &self.rules().release;
-        let range_m = position_m.norm();
-        if range_m > r.beyond_r2_factor * self.rules().stages.r2_m {
-            return true;
-        }
-        // cosines of beta and alpha, without the arc tangents
-        let cosine = |psi_rad: f64, to: Vec2| angle::unit(psi_rad).dot(&to) / range_m;
-        let cos_beta = cosine(self.life.actual.own.psi_rad[k], position_m);
-        let cos_alpha = cosine(self.life.actual.target.psi_rad[k], -position_m);
-        match self.class {
-            EncounterClass::Overtaking => cos_alpha > math::cos(r.overtaker_ahead_rad),
-            EncounterClass::Overtaken => cos_beta > math::cos(r.overtaker_ahead_rad),
-            _ => cos_beta.min(cos_alpha) < math::cos(r.abaft_rad),
-        }
+    let r = &life.rules.release;
+    let range_m = position_m.norm();
+    if range_m > r.beyond_r2_factor * life.rules.stages.r2_m {
+        return true;
+    }
+    // cosines of beta and alpha, without the arc tangents
+    let cosine = |psi_rad: f64, to: Vec2| angle::unit(psi_rad).dot(&to) / range_m;
+    let cos_beta = cosine(life.actual.own.psi_rad[k], position_m);
+    let cos_alpha = cosine(life.actual.target.psi_rad[k], -position_m);
+    match class {
+        EncounterClass::Overtaking => cos_alpha > math::cos(r.overtaker_ahead_rad),
+        EncounterClass::Overtaken => cos_beta > math::cos(r.overtaker_ahead_rad),
+        _ => cos_beta.min(cos_alpha) < math::cos(r.abaft_rad),
     }
 }
 

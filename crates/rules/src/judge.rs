@@ -6,7 +6,7 @@
 
 use crate::action::Action;
 use crate::before_risk::{resolved_without_nominal, turn_before_risk};
-use crate::case::{Case, role_of};
+use crate::case::{Case, release, role_of};
 use crate::facts::{by_planner, facts};
 use crate::flaws::{own_flaw, target_flaw, unreadable};
 use crate::life::PairLife;
@@ -124,12 +124,14 @@ impl<'a> Bench<'a> {
 
     fn judge_pair(&self, life: &PairLife<'_>, scanner: &mut RiskScanner, out: &mut Judgement) {
         let tracked = life.sample(life.pair().tracked_s.unwrap_or(0.0));
-        let action = self.action(life, tracked);
+        let sight = in_sight_at(life);
+        let released = life.onset.filter(|_| sight == Some(0));
+        let released = released.and_then(|onset| release(life, onset.k, onset.decides));
+        let action = self.action(life, (tracked, released));
         if life.onset.is_none() {
             self.judge_without_risk(life, &action, out);
             return;
         }
-        let sight = in_sight_at(life);
         let mut facts = facts(life, &action);
         if sight == Some(0) {
             let roles = self.judge_roles(life, &action, scanner, &mut facts);
@@ -141,7 +143,8 @@ impl<'a> Bench<'a> {
             if let Some(k) = sight {
                 let life = life.in_sight_from(k, scanner);
                 if let Some(onset) = life.onset {
-                    let action = self.action(&life, k.max(tracked));
+                    let released = release(&life, onset.k, onset.decides);
+                    let action = self.action(&life, (k.max(tracked), released));
                     facts.class = Some(onset.decides);
                     facts.class_by_bearings = Some(onset.class);
                     facts.ambiguous = onset.ambiguous();
@@ -162,12 +165,12 @@ impl<'a> Bench<'a> {
         out.pairs.push(facts);
     }
 
-    /// Own ship's action for one target, from sample `from` on.
-    fn action(&self, life: &PairLife<'_>, from: usize) -> Action {
+    /// Own ship's action for one target, from a sample to another where there is one.
+    fn action(&self, life: &PairLife<'_>, within: (usize, Option<usize>)) -> Action {
         let belongs = |start: usize| self.belongs(life, start);
         let turns = self.turns.iter().copied().filter(|run| belongs(run.start));
         let speeds = self.speeds.iter().copied().filter(|run| belongs(run.start));
-        Action::new(life, self.own, turns, speeds, from)
+        Action::new(life, self.own, turns, speeds, within)
     }
 
     /// Whether a run that starts at sample `k` can answer this target (section 5).
@@ -317,8 +320,7 @@ struct Roles {
     by_planner_class: Option<Vec<Verdict>>,
 }
 
-/// Every check of one case, in the order of `Check::ALL`; SAFE last in time, because a stand-on
-/// ship's depends on whether she broke a rule herself.
+/// Every check of one case; SAFE last, because a stand-on ship's depends on her own breaches.
 fn all_checks(case: &Case<'_>) -> Vec<Verdict> {
     let mut verdicts: Vec<Verdict> =
         Check::ALL.into_iter().map(|check| settle(case, one_check(case, check))).collect();
@@ -366,14 +368,15 @@ fn one_check(case: &Case<'_>, check: Check) -> Verdict {
 fn settle(case: &Case<'_>, mut verdict: Verdict) -> Verdict {
     verdict.stages_by = Some(case.stages_by());
     let decided = matches!(verdict.status, Status::Pass | Status::Warn);
-    if !case.complete() && decided && verdict.check != Check::R5R7 {
+    // these two ask for the closest point of the whole run
+    let to_the_end = matches!(verdict.check, Check::Safe | Check::R14);
+    let complete = case.life.passed.is_some() || !to_the_end && case.complete();
+    if !complete && decided && verdict.check != Check::R5R7 {
         verdict.status = Status::Inconclusive;
         verdict.sentence = None;
     }
-    let excusable = !matches!(
-        verdict.check,
-        Check::Safe | Check::LastMinute | Check::R8Third | Check::R6 | Check::R19Speed
-    );
+    use Check::{LastMinute, R6, R8Third, R19Speed, Safe};
+    let excusable = !matches!(verdict.check, Safe | LastMinute | R8Third | R6 | R19Speed);
     if case.resolved_early && excusable && verdict.status == Status::Fail {
         verdict.status = Status::Warn;
         verdict.detail = "RESOLVED_EARLY".into();

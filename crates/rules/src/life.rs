@@ -5,7 +5,7 @@
 //! and locked. Reference: rules specification, sections 1 to 3.
 
 use crate::pair::PairTracks;
-use crate::risk::{Interval, RiskScanner, relative};
+use crate::risk::{Interval, RiskScanner, Scan, opening_m, relative};
 use crate::ruleset::RuleSet;
 use geom::{EncounterClass, Relative, Vec2, classify, wrap};
 use record::{ContactWith, LastMinute, Pair, Trace, Visibility};
@@ -86,10 +86,13 @@ impl<'a> PairLife<'a> {
     }
 
     /// The same pair from sample `from` on, judged by what is seen (Rule 19: on coming in sight).
-    /// Risk that is open then opens anew at that sample.
+    /// Risk that is open then opens anew at that sample, unless the pass is wide enough by then
+    /// that it would not open.
     pub(crate) fn in_sight_from(&self, from: usize, scanner: &mut RiskScanner) -> Self {
         let mut risk = Vec::with_capacity(1);
-        scanner.scan(&self.actual, self.trace.sample_s, self.rules, false, &mut risk);
+        let within_m = opening_m(self.rules, false);
+        let how = Scan { within_m, anew: Some(from), forced: None };
+        scanner.scan_as(&self.actual, self.trace.sample_s, self.rules, how, &mut risk);
         risk.retain(|&(_, until)| until > from);
         if let Some(first) = risk.first_mut() {
             first.0 = first.0.max(from);
@@ -157,8 +160,9 @@ impl<'a> PairLife<'a> {
     /// When risk is open on the way that was really gone, from the onset on.
     pub(crate) fn open_as_sailed(&self, onset: usize, scanner: &mut RiskScanner) -> Vec<Interval> {
         let mut open = Vec::new();
-        let forced = (false, Some(onset));
-        scanner.scan_forced(&self.actual, self.trace.sample_s, self.rules, forced, &mut open);
+        let within_m = opening_m(self.rules, false);
+        let how = Scan { within_m, anew: None, forced: Some(onset) };
+        scanner.scan_as(&self.actual, self.trace.sample_s, self.rules, how, &mut open);
         open
     }
 

@@ -26,6 +26,18 @@ pub(crate) fn opening_m(rules: &RuleSet, by_radar: bool) -> f64 {
     }
 }
 
+/// How risk is looked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scan {
+    /// What must be predicted for it to open, metres.
+    pub(crate) within_m: f64,
+    /// At this sample risk must be there anew: what is open by its memory alone closes.
+    pub(crate) anew: Option<usize>,
+    /// Risk is open at this sample at the latest, as the onset on the nominal track binds whatever
+    /// own ship has done since.
+    pub(crate) forced: Option<usize>,
+}
+
 /// Finds the intervals of open risk; kept between traces for its memory.
 #[derive(Debug, Default)]
 pub(crate) struct RiskScanner {
@@ -44,22 +56,21 @@ impl RiskScanner {
         by_radar: bool,
         intervals: &mut Vec<Interval>,
     ) {
-        self.scan_forced(pair, sample_s, rules, (by_radar, None), intervals);
+        let how = Scan { within_m: opening_m(rules, by_radar), anew: None, forced: None };
+        self.scan_as(pair, sample_s, rules, how, intervals);
     }
 
-    /// The same; risk is open at sample `forced` at the latest, as the onset on the nominal track
-    /// binds whatever own ship has done since.
-    pub(crate) fn scan_forced(
+    /// The same, anew at a sample or forced open at one.
+    pub(crate) fn scan_as(
         &mut self,
         pair: &PairTracks<'_>,
         sample_s: f64,
         rules: &RuleSet,
-        (by_radar, forced): (bool, Option<usize>),
+        Scan { within_m, anew, forced }: Scan,
         intervals: &mut Vec<Interval>,
     ) {
         intervals.clear();
         let n = pair.len();
-        let within_m = opening_m(rules, by_radar);
         self.mark_turning(pair, sample_s, rules);
         // n samples span n - 1 intervals
         let needed = (rules.risk.persistence_s / sample_s).ceil() as usize + 1;
@@ -69,6 +80,9 @@ impl RiskScanner {
                 (open_since, stretch) = (Some(k), 0);
             }
             let held = self.turning.get(k).copied().unwrap_or(false);
+            if anew == Some(k) && !held && !opens(pair, k, within_m, rules) {
+                (open_since, stretch) = (None, 0);
+            }
             let holds = !held
                 && if open_since.is_some() {
                     closes(pair, k, within_m, rules)
@@ -185,8 +199,8 @@ mod tests {
         let pair = PairTracks::new(&own, &wide, DistanceKind::Centre);
         let open = |forced: Option<usize>| {
             let mut found = Vec::new();
-            let asked = (false, forced);
-            RiskScanner::default().scan_forced(&pair, 1.0, &rules(), asked, &mut found);
+            let how = Scan { within_m: opening_m(&rules(), false), anew: None, forced };
+            RiskScanner::default().scan_as(&pair, 1.0, &rules(), how, &mut found);
             found
         };
         assert_eq!((open(None), open(Some(30))), (vec![], vec![(30, 151)]));

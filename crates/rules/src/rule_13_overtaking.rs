@@ -8,7 +8,8 @@
 //! her bow while the range falls (which fails 13(a) too, and says more), turns towards her line
 //! from forward of the sector of 13(b) so that a close pass is predicted that would have been a
 //! wider one, or forces the other to alter: she then leaves her own nominal track by 10 degrees or
-//! a quarter of her speed, which only a target that minds own ship can do.
+//! a quarter of her speed, which only a target that minds own ship can do, and own ship was to pass
+//! closer than the least distance when she began. Where there was room she altered of her own will.
 //! With several targets it counts where no other ship was nearer to her. Drawing ahead on a steady
 //! course is no breach. A run that ends before release cannot show that 13(d) was kept.
 //! Source: rules specification, section 8; score after Hagen 2023, equations 25 and 26.
@@ -137,19 +138,24 @@ fn forces_her(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
     let m = &case.rules().manoeuvre;
     let (target, planned) = (life.actual.target, life.nominal?.target);
     let last = until.min(planned.len() - 1);
-    let off = |k: usize| {
+    let off_by = |k: usize, turn_rad: f64, speed_fraction: f64| {
         let turned_rad = geom::wrap(target.psi_rad[k] - planned.psi_rad[k]);
         let speed_mps = planned.sog_mps(k);
         let faster_mps = (target.sog_mps(k) - speed_mps).abs();
-        turned_rad.abs() >= m.substantial_turn_rad
-            || faster_mps > 0.0 && faster_mps >= m.substantial_speed_fraction * speed_mps
+        turned_rad.abs() >= turn_rad || faster_mps > 0.0 && faster_mps >= speed_fraction * speed_mps
     };
+    let off = |k: usize| off_by(k, m.substantial_turn_rad, m.substantial_speed_fraction);
+    let on_her_plan = |k: &usize| !off_by(*k, m.detectable_turn_rad, m.detectable_speed_fraction);
     let held = (m.offset_held_s / life.trace.sample_s).ceil() as usize;
     let k = (from..(last + 1).saturating_sub(held)).find(|&k| (k..=k + held).all(off))?;
     let her_m = target.position_m(k);
     let own_m = (life.actual.own.position_m(k) - her_m).norm();
     let nearer = |other: &ShipTrack| (other.position_m(k) - her_m).norm() < own_m;
     let others = life.trace.targets.iter().enumerate().filter(|(i, _)| *i != life.target);
+    let had_room = |k: usize| !life.actual.dcpa_below(k, case.rules().distance.r_min_m);
+    if (0..k).rev().find(on_her_plan).is_some_and(had_room) {
+        return None;
+    }
     // off before there was risk, or by another: not by own ship
     if k == from && from > 0 && off(from - 1) || others.into_iter().any(|(_, ship)| nearer(ship)) {
         return None;

@@ -80,11 +80,11 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
             let when = case.when(t_s);
             if held.turn_rad.abs() >= m.detectable_turn_rad {
                 let altered = Case::altered(held.turn_rad);
-                format!("{when}, own ship, to keep her course, {altered}. Rule 17(a)(i).")
+                format!("{when}, own ship, bound to keep her course, {altered}. Rule 17(a)(i).")
             } else {
                 let change = 100.0 * held.share;
                 let changed = format!("changed her speed by {change:+.0} %");
-                format!("{when}, own ship, to keep it, {changed}. Rule 17(a)(i).")
+                format!("{when}, own ship, bound to keep it, {changed}. Rule 17(a)(i).")
             }
         })
         .done()

@@ -46,9 +46,13 @@ pub(crate) fn check(case: &Case<'_>) -> Verdict {
         .metres("r_nm", near_miss_m)
         .say(|| {
             let when = case.when(shall_s);
+            let acted = match acted_s {
+                Some(t_s) => format!("acted only {:.0} s later", t_s - shall_s),
+                None => "did not act".to_owned(),
+            };
             format!(
                 "{when}, own ship could no longer leave it to the other, was to pass at \
-                 {predicted_m:.0} m, and did not act. Rule 17(b)."
+                 {predicted_m:.0} m, and {acted}. Rule 17(b)."
             )
         })
         .done()

@@ -97,6 +97,10 @@ impl RuleSet {
             found = true;
         }
         if !found {
+            // it may be absent from the table, having no default
+            if !allowed.iter().any(|name| name == "react_fail_s") {
+                allowed.push("react_fail_s".to_owned());
+            }
             let (name, key) = (self.name.clone(), key.to_owned());
             return Err(RuleSetError::UnknownKey { name, key, allowed: allowed.join(", ") });
         }

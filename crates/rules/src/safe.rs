@@ -50,10 +50,14 @@ pub(crate) fn check(case: &Case<'_>, own_breach: bool) -> Verdict {
                     case.when(t_s)
                 )
             } else {
-                let text = "own ship passed at";
-                let least_m = case.rules().distance.r_min_m;
+                let d = &case.rules().distance;
+                let (what, limit_m) = match detail {
+                    "FAIL-NEARMISS" => ("a near miss of ", d.r_nm_m),
+                    _ => ("", d.r_min_m),
+                };
+                let passed = format!("own ship passed at {distance_m:.0} m");
                 let when = case.when(t_s);
-                format!("{when}, {text} {distance_m:.0} m, less than {least_m:.0} m. Rule 8(d).")
+                format!("{when}, {passed}, {what}less than {limit_m:.0} m. Rule 8(d).")
             }
         })
         .done()

@@ -1,7 +1,8 @@
 //! Rule 13(d): whether own ship, overtaking, forced the other to alter.
 //!
-//! A target that minds nobody keeps to her own nominal track; one that leaves it was forced. Which
-//! of several ships forced her is not recorded: the nearest one did.
+//! A target that minds nobody keeps to her own nominal track; one that leaves it was forced, if a
+//! pass under the minimum distance was predicted when she last was on it. Which of several ships
+//! forced her is not recorded: the nearest one did.
 
 use crate::checks::Case;
 use crate::signals::wrapped_rad;
@@ -15,24 +16,26 @@ impl Case<'_> {
         let planned = self.trace.nominal.as_ref().and_then(|n| n.targets.get(self.target));
         let Some(planned) = planned else { return vec![-1.0; samples] };
         let ship = &self.trace.targets[self.target];
-        let mut since: Option<usize> = None;
+        let p = self.params;
+        let off = |k: usize, turn_rad: f64, speed: f64| {
+            k < planned.len() && departs(ship, planned, k, turn_rad, speed)
+        };
+        let (mut since, mut kept): (Option<usize>, Option<usize>) = (None, None);
         (0..samples)
             .map(|k| {
-                since = (k < planned.len() && self.is_off(ship, planned, k))
-                    .then(|| since.unwrap_or(k));
+                if !off(k, p.turn_detectable_rad, p.speed_detectable) {
+                    kept = Some(k);
+                }
+                since = off(k, p.turn_action_rad, p.speed_action).then(|| since.unwrap_or(k));
                 let held = since.is_some_and(|from| {
-                    from >= onset && k >= from + self.hold && self.own_is_nearest(from)
+                    from >= onset
+                        && k >= from + self.hold
+                        && kept.is_none_or(|k| self.pair().predicted_within(k, p.minimum_m))
+                        && self.own_is_nearest(from)
                 });
                 if held { 1.0 } else { -1.0 }
             })
             .collect()
-    }
-
-    fn is_off(&self, ship: &ShipTrack, planned: &ShipTrack, k: usize) -> bool {
-        let (p, speed) = (self.params, planned.sog_mps(k));
-        let turned = wrapped_rad(ship.psi_rad[k] - planned.psi_rad[k]).abs();
-        let changed = (ship.sog_mps(k) - speed).abs();
-        turned >= p.turn_action_rad || (changed > 0.0 && changed >= p.speed_action * speed)
     }
 
     fn own_is_nearest(&self, k: usize) -> bool {
@@ -45,4 +48,12 @@ impl Case<'_> {
             .enumerate()
             .all(|(i, other)| i == self.target || range_m(other) >= own_m)
     }
+}
+
+/// Whether her heading or speed is off her plan by as much.
+fn departs(ship: &ShipTrack, planned: &ShipTrack, k: usize, turn_rad: f64, share: f64) -> bool {
+    let speed = planned.sog_mps(k);
+    let changed = (ship.sog_mps(k) - speed).abs();
+    wrapped_rad(ship.psi_rad[k] - planned.psi_rad[k]).abs() >= turn_rad
+        || (changed > 0.0 && changed >= share * speed)
 }

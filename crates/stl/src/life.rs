@@ -4,9 +4,12 @@
 //! for every planner; everything after the onset is read from what own ship did.
 
 use crate::params::{Params, StageClock};
-use crate::risk::{class_by_direction, class_that_decides, risk_open, samples_of, stage_limit_m};
+use crate::risk::{
+    class_by_direction, class_that_decides, released, risk_open, risk_open_anew, samples_of,
+    stage_limit_m,
+};
 use crate::signals::PairSignals;
-use record::{EncounterClass, LastInstant, ShipTrack, Trace, Visibility};
+use record::{DistanceKind, EncounterClass, LastInstant, ShipTrack, Trace, Visibility};
 use std::ops::Range;
 
 /// One pair from the start to the end of the run.
@@ -108,20 +111,22 @@ fn life<'a>(trace: &'a Trace, target: usize, params: &Params) -> Life<'a> {
         };
         match seen {
             Some(k) if k <= onset => {
-                life.in_sight = Some(duty(trace, target, &life.actual, start, clock, params));
+                life.in_sight =
+                    Some(duty(trace, target, &life.actual, (start, true), clock, params));
             }
             _ => {
                 let end = seen.map_or(cpa, |k| k.min(cpa));
                 let complete = cpa_passed || seen.is_some();
                 let clock = Clock { end, complete, ..clock };
-                life.by_radar = Some(duty(trace, target, &life.actual, start, clock, params));
+                life.by_radar =
+                    Some(duty(trace, target, &life.actual, (start, false), clock, params));
             }
         }
     }
     if life.by_radar.is_some()
         && let Some(k) = seen.filter(|k| *k <= cpa)
     {
-        life.in_sight = on_coming_in_sight(trace, target, &life, k, &own_risk, params);
+        life.in_sight = on_coming_in_sight(trace, target, &life, k, params);
     }
     life
 }
@@ -182,11 +187,15 @@ fn duty(
     trace: &Trace,
     target: usize,
     actual: &PairSignals<'_>,
-    start: AtOnset,
+    (start, in_sight): (AtOnset, bool),
     clock: Clock,
     params: &Params,
 ) -> Duty {
-    let Clock { onset, begin, end, complete, never_opened, reference } = clock;
+    let Clock { onset, begin, mut end, mut complete, never_opened, reference } = clock;
+    if in_sight && let Some(k) = released_at(trace, target, actual, start.class, onset, params) {
+        // the ships came closest in a later meeting, which is another encounter
+        (end, complete) = (end.min(k), true);
+    }
     let open = risk_open(actual, params, params.risk_distance_m, trace.sample_s, Some(onset));
     let by_time = params.stage_clock == StageClock::Time
         || matches!(start.class, EncounterClass::Overtaking | EncounterClass::Overtaken);
@@ -239,6 +248,23 @@ fn duty(
     }
 }
 
+/// The sample at which they have been past and clear for as long as it takes.
+fn released_at(
+    trace: &Trace,
+    target: usize,
+    actual: &PairSignals<'_>,
+    class: EncounterClass,
+    onset: usize,
+    params: &Params,
+) -> Option<usize> {
+    let distance_m = match trace.distance {
+        DistanceKind::Hull => &trace.pairs[target].hull_m,
+        DistanceKind::Centre => &actual.range_m,
+    };
+    let since = released(actual, class, params, trace.sample_s, onset, distance_m)?;
+    Some(since + samples_of(params.release_hold_s, trace.sample_s))
+}
+
 /// First sample at which the ships see one another.
 fn sighted(visibility: Visibility, actual: &PairSignals<'_>) -> Option<usize> {
     match visibility {
@@ -255,10 +281,11 @@ fn on_coming_in_sight(
     target: usize,
     life: &Life<'_>,
     seen: usize,
-    own_risk: &[Range<usize>],
     params: &Params,
 ) -> Option<Duty> {
-    let onset = own_risk.iter().find(|open| open.end > seen)?.start.max(seen);
+    let within_m = params.risk_distance_m;
+    let open = risk_open_anew(Some(seen), &life.actual, params, within_m, trace.sample_s, None);
+    let onset = open.iter().find(|open| open.end > seen)?.start.max(seen);
     if onset > life.cpa {
         return None;
     }
@@ -271,7 +298,7 @@ fn on_coming_in_sight(
         never_opened: false,
         reference: Some(seen),
     };
-    Some(duty(trace, target, &life.actual, start, clock, params))
+    Some(duty(trace, target, &life.actual, (start, true), clock, params))
 }
 
 /// The class at a sample by direction alone, for those who check that a locked role stays.

@@ -20,6 +20,18 @@ pub fn risk_open(
     sample_s: f64,
     forced: Option<usize>,
 ) -> Vec<Range<usize>> {
+    risk_open_anew(None, pair, params, within_m, sample_s, forced)
+}
+
+/// The same for those who look anew at sample `seen`: what would not open then, is not open.
+pub fn risk_open_anew(
+    seen: Option<usize>,
+    pair: &PairSignals<'_>,
+    params: &Params,
+    within_m: f64,
+    sample_s: f64,
+    forced: Option<usize>,
+) -> Vec<Range<usize>> {
     let samples = pair.samples();
     let hold = samples_of(params.risk_hold_s, sample_s);
     let unsteady = [pair.own, pair.target].map(|ship| unsteady(ship, samples, params, sample_s));
@@ -28,6 +40,10 @@ pub fn risk_open(
     let mut from: Option<usize> = None;
     let mut streak = 0;
     for k in 0..samples {
+        if seen == Some(k) && steady(k) && !opens(pair, params, within_m, k) {
+            from = None;
+            streak = 0;
+        }
         if forced == Some(k) && from.is_none() {
             from = Some(k);
             streak = 0;

@@ -85,6 +85,23 @@ fn a_ship_seen_first_at_the_closest_point_is_met_in_sight() {
     assert_eq!([121.0, 120.5, 120.0].map(in_sight_from), [Some(149), Some(150), None]);
 }
 
+/// Risk by radar; the predicted pass is a little too wide to open any when she is seen.
+#[test]
+fn a_pass_that_would_open_no_risk_is_none_in_sight() {
+    let in_sight = |turn_deg: f64| {
+        let mut trace =
+            run(&own().turn(10, turn_deg), &[Script::straight(1500.0, 0.0, 180.0, 5.0)], 300);
+        trace.visibility = Visibility::Restricted { visual_range_m: 500.0 };
+        let life = lives(&trace, &USV).remove(0);
+        assert!(life.by_radar.is_some());
+        (life.actual.predicted_m(life.cpa), life.in_sight.is_some())
+    };
+    let (wide_m, seen) = in_sight(18.5);
+    assert!((205.0..235.0).contains(&wide_m) && !seen, "{wide_m}");
+    let (near_m, seen) = in_sight(14.0);
+    assert!((120.0..195.0).contains(&near_m) && seen, "{near_m}");
+}
+
 /// A spike of one sample is a turn there and a turn back that changes nothing: no alteration, and
 /// so nothing that keeps two turns to one side apart.
 #[test]

@@ -8,13 +8,15 @@ use record::{Check, Trace};
 use stl::clearance::{Posed, predicted_clearance_m};
 use stl::{Finding, judge};
 
-/// Overtakes at 6 m/s, past the other 200 m off.
+/// Overtakes at 6 m/s, holds on to 240 m, and passes the other 200 m off.
 fn fast() -> Script {
-    Script { speed_mps: 6.0, ..Script::straight(0.0, 0.0, 0.0, 5.0) }.turn(10, 25.0).turn(74, -25.0)
+    Script { speed_mps: 6.0, ..Script::straight(0.0, 0.0, 0.0, 5.0) }
+        .turn(65, 60.0)
+        .turn(125, -60.0)
 }
 
 fn slow() -> Script {
-    Script::straight(400.0, 0.0, 0.0, 2.0)
+    Script::straight(500.0, 0.0, 0.0, 2.0)
 }
 
 /// What Rule 13 says of a ship that planned to hold and does this, in the company of `third`.
@@ -66,7 +68,7 @@ fn what_is_not_held_or_was_done_for_another_is_not_laid_to_own_ship() {
     assert_eq!(jinks(3), Finding::Holds);
     assert_eq!(jinks(9), Finding::Violated);
     // a third ship beside her, nearer than own ship and further away
-    let beside = |east_m: f64| Some(Script::straight(400.0, east_m, 0.0, 2.0));
+    let beside = |east_m: f64| Some(Script::straight(500.0, east_m, 0.0, 2.0));
     let turns = || slow().turn(60, -20.0);
     assert_eq!(overtaken(turns(), beside(-120.0)), Finding::Holds);
     assert_eq!(overtaken(turns(), beside(-600.0)), Finding::Violated);
@@ -78,7 +80,7 @@ fn what_is_not_held_or_was_done_for_another_is_not_laid_to_own_ship() {
 fn what_she_did_before_there_was_risk_is_her_own() {
     let far = |she: Script| {
         let own = Script { speed_mps: 8.0, ..Script::straight(0.0, 0.0, 0.0, 5.0) };
-        let own = own.turn(250, 25.0).turn(330, -25.0);
+        let own = own.turn(250, 45.0).turn(330, -45.0);
         let mut trace = run(&own, &[she], 700);
         let plan = Script::straight(2400.0, 0.0, 0.0, 2.0);
         trace.nominal.as_mut().expect("planned").targets =

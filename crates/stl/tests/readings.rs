@@ -271,12 +271,23 @@ fn a_turn_made_in_the_second_of_detection_is_the_action() {
 
 #[test]
 fn a_ship_that_leaves_her_plan_before_an_overtaker_was_forced() {
-    let slow = Script::straight(400.0, 0.0, 0.0, 2.0);
-    let fast = Script { speed_mps: 6.0, ..own() }.turn(10, 25.0).turn(74, -25.0);
+    let slow = Script::straight(500.0, 0.0, 0.0, 2.0);
+    let fast = Script { speed_mps: 6.0, ..own() }.turn(65, 60.0).turn(125, -60.0);
     let mut trace = run(&fast, &[slow.clone().turn(60, -20.0)], 300);
     assert_eq!(finding(&trace, Check::R13).status, Finding::Holds);
     trace.nominal.as_mut().unwrap().targets = run(&fast, &[slow], 300).nominal.unwrap().targets;
     assert_eq!(finding(&trace, Check::R13).status, Finding::Violated);
+}
+
+/// What is done after release, to where the ships meet again and closer, is no part of the duty.
+#[test]
+fn the_duty_ends_at_release_though_the_ships_come_closer_later() {
+    let she = || Script::straight(1250.0, -1550.0, 90.0, 5.0);
+    let trace = run(&own().turn(400, 140.0), &[she().change_speed(400, -4.0)], 900);
+    let life = lives(&trace, &USV).remove(0);
+    let duty = life.in_sight.unwrap();
+    assert!(life.cpa > 450 && duty.end < 400 && duty.complete, "{} {}", life.cpa, duty.end);
+    assert_eq!(finding(&trace, Check::R17Hold).status, Finding::Holds);
 }
 
 /// She stops, and then her head swings by 20 degrees: fast, and too slowly for a rate. That is no

@@ -137,7 +137,7 @@ fn a_pair_without_its_distances_is_open() {
 /// where she had swung off and back before, and then has to alter.
 #[test]
 fn forced_in_the_second_in_which_risk_opens() {
-    let own_ship = || own(8.0).hold(180.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
+    let own_ship = || own(8.0).hold(420.0).turn(40.0, 6.0).hold(80.0).turn(-40.0, 6.0).hold(600.0);
     let she = || Script::new(ship(40.0, 8.0), 2600.0, 5.0, 0.0, 3.0);
     let judged = |she: Script| {
         let plan = Script::new(ship(40.0, 8.0), 2600.0, 5.0, 0.0, 3.0).hold(1300.0);
@@ -158,7 +158,7 @@ fn forced_is_held_in_seconds_and_not_in_samples() {
     let jinks = |hold_s: f64| {
         let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0).hold(200.0);
         let she = she.turn(-11.0, 11.0).hold(hold_s).turn(11.0, 11.0).hold(700.0);
-        let script = own(8.0).hold(40.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
+        let script = super::rule_13::late();
         let plan = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0).hold(1300.0);
         let mut trace = Scene::new(script, she).nominal_targets(vec![plan]).trace();
         super::pinned::in_slow_motion(&mut trace);
@@ -171,9 +171,9 @@ fn forced_is_held_in_seconds_and_not_in_samples() {
 /// Off her plan from the first sample of the run on, with risk open: nothing came before it.
 #[test]
 fn forced_from_the_first_sample_on() {
-    let script = own(8.0).hold(40.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
     let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, deg(-11.0), 3.0).hold(900.0);
-    let judgement = judge(&Scene::new(script, she).nominal_targets(vec![slow_ahead()]));
+    let judgement =
+        judge(&Scene::new(super::rule_13::late(), she).nominal_targets(vec![slow_ahead()]));
     assert_eq!(judgement.pairs[0].risk_s, Some(0.0));
     expect(&judgement, Check::R13, Fail, "FAIL-13D-FORCED");
 }
@@ -184,8 +184,8 @@ fn a_plan_may_end_before_the_run() {
     let meets = |from_s: f64, samples: usize| {
         let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0);
         let she = she.hold(from_s).turn(-11.0, 22.0).hold(800.0);
-        let script = own(8.0).hold(40.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
-        let mut trace = Scene::new(script, she).nominal_targets(vec![slow_ahead()]).trace();
+        let mut trace =
+            Scene::new(super::rule_13::late(), she).nominal_targets(vec![slow_ahead()]).trace();
         let nominal = trace.nominal.as_mut().unwrap();
         for track in nominal.targets.iter_mut().chain([&mut nominal.own]) {
             for signal in track.signals_mut() {

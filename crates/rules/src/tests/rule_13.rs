@@ -7,6 +7,11 @@ fn overtake(angle_deg: f64) -> Script {
     own(8.0).hold(40.0).turn(angle_deg, 3.0).hold(150.0).turn(-angle_deg, 3.0)
 }
 
+/// Holds on astern of her to 350 m, then alters and passes clear all the same.
+pub(super) fn late() -> Script {
+    own(8.0).hold(230.0).turn(40.0, 6.0).hold(80.0).turn(-40.0, 6.0).hold(600.0)
+}
+
 #[test]
 fn either_side_complies() {
     for side in [1.0, -1.0] {
@@ -171,8 +176,7 @@ fn forcing_the_overtaken_ship_to_alter_is_13d() {
             .hold(700.0)
     };
     let meets = |angle_deg: f64, planned: Script| {
-        let script = overtake(20.0).hold(600.0);
-        judge(&Scene::new(script, she(angle_deg)).nominal_targets(vec![planned.hold(400.0)]))
+        judge(&Scene::new(late(), she(angle_deg)).nominal_targets(vec![planned.hold(400.0)]))
     };
     expect(&meets(-25.0, slow_ahead()), Check::R13, Fail, "FAIL-13D-FORCED");
     expect(&meets(-8.0, slow_ahead()), Check::R13, Pass, "");
@@ -184,8 +188,7 @@ fn forcing_the_overtaken_ship_to_alter_is_13d() {
 fn she_is_forced_off_her_speed_too() {
     let slows = |speed_mps: f64| {
         let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0).hold(200.0);
-        let scene =
-            Scene::new(overtake(20.0).hold(600.0), she.speed_to(speed_mps, 0.1).hold(700.0));
+        let scene = Scene::new(late(), she.speed_to(speed_mps, 0.1).hold(700.0));
         judge(&scene.nominal_targets(vec![slow_ahead().hold(400.0)]))
     };
     for speed_mps in [2.2, 3.8] {
@@ -203,7 +206,7 @@ fn own_ship_forced_nothing_else() {
     let she = |north_m: f64| Script::new(ship(40.0, 8.0), north_m, 5.0, 0.0, 3.0);
     let plan = |north_m: f64| she(north_m).hold(1300.0);
     // risk opens at 1900 m, at 140 s
-    let later = || own(8.0).hold(180.0).turn(20.0, 3.0).hold(150.0).turn(-20.0, 3.0).hold(600.0);
+    let later = || own(8.0).hold(420.0).turn(40.0, 6.0).hold(80.0).turn(-40.0, 6.0).hold(600.0);
     let early = she(2600.0).hold(100.0).turn(-25.0, 2.0).hold(1100.0);
     let judgement = judge(&Scene::new(later(), early).nominal_targets(vec![plan(2600.0)]));
     assert!(judgement.pairs[0].risk_s.is_some_and(|t_s| t_s > 120.0), "{judgement:#?}");
@@ -211,7 +214,7 @@ fn own_ship_forced_nothing_else() {
     // off by 10 degrees or more for 3 s, and for 8 s
     let jinks = |hold_s: f64| {
         let she = she(1500.0).hold(200.0).turn(-11.0, 11.0).hold(hold_s).turn(11.0, 11.0);
-        let scene = Scene::new(overtake(20.0).hold(600.0), she.hold(700.0));
+        let scene = Scene::new(late(), she.hold(700.0));
         judge(&scene.nominal_targets(vec![plan(1500.0)]))
     };
     expect(&jinks(3.0), Check::R13, Pass, "");
@@ -220,11 +223,26 @@ fn own_ship_forced_nothing_else() {
     let beside = |east_m: f64| {
         let third = || Script::new(ship(40.0, 8.0), 1500.0, east_m, 0.0, 3.0).hold(1300.0);
         let she = she(1500.0).hold(200.0).turn(-25.0, 2.0).hold(700.0);
-        let scene = Scene::new(overtake(20.0).hold(600.0), she).and(third());
+        let scene = Scene::new(late(), she).and(third());
         judge(&scene.nominal_targets(vec![plan(1500.0), third()]))
     };
     expect(&beside(-200.0), Check::R13, Pass, "");
     expect(&beside(-900.0), Check::R13, Fail, "FAIL-13D-FORCED");
+}
+
+/// Own ship has made room before she alters; the room is measured when she last was on her plan,
+/// before a slow turn has made more of it.
+#[test]
+fn she_who_had_room_was_not_forced() {
+    let meets = |from_s: f64, rate_deg: f64| {
+        let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0).hold(from_s);
+        let scene = Scene::new(late(), she.turn(-25.0, rate_deg).hold(700.0));
+        judge(&scene.nominal_targets(vec![slow_ahead().hold(400.0)]))
+    };
+    expect(&meets(225.0, 3.0), Check::R13, Fail, "FAIL-13D-FORCED");
+    expect(&meets(225.0, 1.0), Check::R13, Fail, "FAIL-13D-FORCED");
+    expect(&meets(245.0, 3.0), Check::R13, Pass, "");
+    expect(&meets(245.0, 1.0), Check::R13, Pass, "");
 }
 
 #[test]

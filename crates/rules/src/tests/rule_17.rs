@@ -17,6 +17,25 @@ fn holding_complies() {
     expect(&passed_astern(own(6.0)), Check::R17Hold, Pass, "");
 }
 
+/// Past and clear ends the duty: the way back to where the ships meet again is no breach of it.
+#[test]
+fn a_turn_after_release_is_no_departure_though_the_ships_meet_closer_later() {
+    let she = || Script::new(ship(40.0, 8.0), 1800.0, -2100.0, deg(90.0), 6.0);
+    let meets = |again: bool| {
+        let own_ship = if again { own(6.0).hold(450.0).turn(140.0, 10.0) } else { own(6.0) };
+        let other = if again { she().hold(450.0).speed_to(1.0, 0.5) } else { she() };
+        judge(&Scene::new(own_ship.hold(500.0), other.hold(900.0)))
+    };
+    for again in [false, true] {
+        let judgement = meets(again);
+        let facts = &judgement.pairs[0];
+        let (cpa_s, released_s) = (facts.cpa_s.unwrap(), facts.released_s.unwrap());
+        assert!(released_s < 450.0 && (cpa_s > 500.0) == again, "{facts:#?}");
+        expect(&judgement, Check::R17Hold, Pass, "");
+        expect(&judgement, Check::R8Dribble, NotApplicable, "");
+    }
+}
+
 #[test]
 fn altering_in_stage_2_fails_and_a_small_yaw_warns() {
     // stage 2 begins at 77 s, stage 3 at 218 s

@@ -106,6 +106,23 @@ fn on_coming_in_sight_the_rules_change() {
     expect(&fog(before, 500.0), Check::R19, Fail, "FAIL-19D-I");
 }
 
+/// A pass too narrow to close the risk that was there, and too wide to open one, is no new onset.
+#[test]
+fn what_was_settled_by_radar_opens_no_risk_in_sight() {
+    let seen_after = |turn_deg: f64| {
+        let scene = Scene::new(own(6.0).hold(60.0).turn(turn_deg, 3.0).hold(400.0), head_on());
+        let mut wide = scene.trace();
+        wide.visibility = Visibility::Restricted { visual_range_m: 500.0 };
+        (wide.pairs[0].minimum.hull_m, judge_by(rules(), &wide))
+    };
+    let (wide_m, settled) = seen_after(16.0);
+    assert!((200.0..240.0).contains(&wide_m), "{wide_m}");
+    assert_eq!(settled.pairs[0].role, Role::None);
+    let (near_m, open) = seen_after(13.0);
+    assert!((150.0..200.0).contains(&near_m), "{near_m}");
+    assert_ne!(open.pairs[0].role, Role::None);
+}
+
 fn last_minute(own_last: LastInstant, act_at_s: f64) -> Judgement {
     let mut trace =
         Scene::new(own(6.0).hold(act_at_s).turn(40.0, 4.0).hold(400.0), head_on()).trace();
