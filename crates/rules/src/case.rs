@@ -39,7 +39,7 @@ pub(crate) struct Case<'a> {
     /// Acted before risk opened, and by that kept it from opening.
     pub(crate) resolved_early: bool,
     /// When risk is open on the way that was really gone, in samples, from the onset on; absent
-    /// where nobody asks.
+    /// in restricted visibility, where no rule asks.
     pub(crate) open: Option<&'a [Interval]>,
     /// Every other target, for what an action does to them.
     pub(crate) others: &'a [PairLife<'a>],
@@ -150,6 +150,7 @@ impl<'a> Case<'a> {
         onset: &'a Onset,
         class: EncounterClass,
         others: &'a [PairLife<'a>],
+        open: Option<&'a [Interval]>,
     ) -> Self {
         let mut case = Self {
             life,
@@ -166,7 +167,7 @@ impl<'a> Case<'a> {
             forced_by: None,
             later_turns: &[],
             resolved_early: false,
-            open: None,
+            open,
             others,
         };
         if onset.own_stopped {
@@ -231,9 +232,10 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// `t_17a`: the first sample from stage 3 on at which a close pass has been predicted for a
-    /// while, on the way that was really gone. It looks back, as a ship must. Such a pass lies well
-    /// inside what holds risk open, so that nothing else need be asked.
+    /// `t_17a`: the first sample from stage 3 on at which risk has been open and a close pass
+    /// predicted for a while, on the way that was really gone. It looks back, as a ship must. Risk
+    /// that closed on a wide pass stays closed while either ship turns, however close the pass
+    /// that is predicted from a turn.
     fn find_may_act(&self) -> Option<usize> {
         let s = &self.rules().stand_on;
         let samples = |t_s: f64| (t_s / self.life.trace.sample_s).ceil() as usize;
@@ -246,13 +248,19 @@ impl<'a> Case<'a> {
             let begin = (stage_3 + 1).saturating_sub(needed).max(self.onset.k);
             let mut stretch = 0;
             (begin..=self.end()).find(|&k| {
-                let close = self.life.actual.closing(k)
+                let close = self.at_risk(k)
+                    && self.life.actual.closing(k)
                     && self.life.actual.dcpa_below(k, self.rules().distance.r_min_m);
                 stretch = if close { stretch + 1 } else { 0 };
                 stretch >= needed && k >= stage_3
             })
         });
         [early, by_range].into_iter().flatten().min()
+    }
+
+    /// Whether risk is open at a sample, as it was sailed; where that is not known, it is.
+    pub(crate) fn at_risk(&self, k: usize) -> bool {
+        self.open.is_none_or(|open| open.iter().any(|&(from, until)| (from..until).contains(&k)))
     }
 
     /// Whether the target altered detectably between two samples.

@@ -7,7 +7,6 @@
 
 use crate::case::Case;
 use crate::pair::reach_m;
-use crate::risk::Interval;
 use geom::{Vec2, angle};
 use record::DistanceKind;
 
@@ -46,11 +45,7 @@ pub(crate) fn crossed_ahead(
         let (direction, own_m) = (ahead(k), -case.life.actual.relative(k).0);
         (direction, direction.dot(&own_m), direction.perp(&own_m))
     };
-    let open = |k: usize| {
-        let at_risk = |k: usize, open: &[Interval]| open.iter().any(|&(a, b)| (a..b).contains(&k));
-        line == Line::Centreline
-            || case.open.is_none_or(|open| at_risk(k - 1, open) || at_risk(k, open))
-    };
+    let open = |k: usize| line == Line::Centreline || case.at_risk(k - 1) || case.at_risk(k);
     let mut nearest: Option<CrossedAhead> = None;
     let mut before = seen(from);
     for k in from + 1..=to {

@@ -231,15 +231,12 @@ impl<'a> Bench<'a> {
     ) -> Roles {
         let onset = life.onset.as_ref().expect("only a pair at risk has roles");
         let resolved_early = self.resolved_early(life, action, scanner);
-        let crossing = EncounterClass::CrossingStbd;
-        let open = (onset.reachable[crossing as usize] || facts.class_by_planner == Some(crossing))
-            .then(|| life.open_as_sailed(onset.k, scanner));
+        let open = life.open_as_sailed(onset.k, scanner);
         let case_of = |class: EncounterClass| {
-            let mut case = Case::new(life, self.own, action, onset, class, self.lives);
+            let mut case = Case::new(life, self.own, action, onset, class, self.lives, Some(&open));
             case.later_turns = self.turns;
             case.forced_by = self.forced_by(life, class, action);
             case.resolved_early = resolved_early;
-            case.open = open.as_deref();
             case
         };
         let case = case_of(onset.decides);
@@ -266,7 +263,7 @@ impl<'a> Bench<'a> {
         facts: &mut PairFacts,
     ) -> Vec<Verdict> {
         let onset = life.onset.as_ref().expect("only a pair at risk is judged by Rule 19");
-        let mut case = Case::new(life, self.own, action, onset, onset.decides, self.lives);
+        let mut case = Case::new(life, self.own, action, onset, onset.decides, self.lives, None);
         case.restricted = true;
         case.role = Role::None;
         facts.stages_s = case.stages.map(|k| k.map(|k| life.time_s(k)));

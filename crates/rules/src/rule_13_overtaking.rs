@@ -132,7 +132,8 @@ fn turns_in(case: &Case<'_>, until: usize) -> Option<Breach> {
     })
 }
 
-/// 13(d): the other was forced to alter. The first held departure from her nominal track.
+/// 13(d): the other was forced to alter. The first held departure from her nominal track for which
+/// there was no room.
 fn forces_her(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
     let life = case.life;
     let m = &case.rules().manoeuvre;
@@ -147,19 +148,20 @@ fn forces_her(case: &Case<'_>, from: usize, until: usize) -> Option<Breach> {
     let off = |k: usize| off_by(k, m.substantial_turn_rad, m.substantial_speed_fraction);
     let on_her_plan = |k: &usize| !off_by(*k, m.detectable_turn_rad, m.detectable_speed_fraction);
     let held = (m.offset_held_s / life.trace.sample_s).ceil() as usize;
-    let k = (from..(last + 1).saturating_sub(held)).find(|&k| (k..=k + held).all(off))?;
-    let her_m = target.position_m(k);
-    let own_m = (life.actual.own.position_m(k) - her_m).norm();
-    let nearer = |other: &ShipTrack| (other.position_m(k) - her_m).norm() < own_m;
-    let others = life.trace.targets.iter().enumerate().filter(|(i, _)| *i != life.target);
+    let own_range_m = |k: usize| (life.actual.own.position_m(k) - target.position_m(k)).norm();
+    let another_is_nearer = |k: usize| {
+        let range_m = |ship: &ShipTrack| (ship.position_m(k) - target.position_m(k)).norm();
+        let ships = life.trace.targets.iter().enumerate();
+        ships.filter(|(i, _)| *i != life.target).any(|(_, ship)| range_m(ship) < own_range_m(k))
+    };
     let had_room = |k: usize| !life.actual.dcpa_below(k, case.rules().distance.r_min_m);
-    if (0..k).rev().find(on_her_plan).is_some_and(had_room) {
-        return None;
-    }
-    // off before there was risk, or by another: not by own ship
-    if k == from && from > 0 && off(from - 1) || others.into_iter().any(|(_, ship)| nearer(ship)) {
-        return None;
-    }
+    // off before there was risk, or by another, or with room: not by own ship
+    let k = (from..(last + 1).saturating_sub(held))
+        .filter(|&k| k == 0 || !off(k - 1))
+        .filter(|&k| (k..=k + held).all(off))
+        .filter(|&k| !(0..k).rev().find(on_her_plan).is_some_and(had_room))
+        .find(|&k| !another_is_nearer(k))?;
+    let own_m = own_range_m(k);
     Some(Breach {
         detail: "FAIL-13D-FORCED",
         t_s: life.time_s(k),

@@ -327,9 +327,9 @@ impl<'a> Case<'a> {
         let p = self.params;
         let pair = self.pair();
         let (_, abeam_m) = pair.ahead_and_abeam_m(run.start, Course::Heading);
-        let course = |k: usize| {
-            libm::sin(self.trace.own.psi_rad[k] - self.trace.targets[self.target].psi_rad[k])
-        };
+        // her own turn is none of own ship's
+        let hers_rad = self.trace.targets[self.target].psi_rad[run.start];
+        let course = |k: usize| libm::sin(self.trace.own.psi_rad[k] - hers_rad);
         run.change.abs() >= p.turn_action_rad
             && alpha_rad[run.start] < ABAFT_THE_BEAM_RAD
             && (course(run.end) - course(run.start)) * abeam_m < 0.0

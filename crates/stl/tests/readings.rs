@@ -104,6 +104,16 @@ fn turning_in_must_make_the_pass_closer() {
     assert_eq!(swerves(2), Finding::Violated);
 }
 
+/// Own ship turns away from the other's line, and the other turns toward own ship meanwhile.
+#[test]
+fn the_turn_of_the_overtaken_ship_is_none_of_own_ship() {
+    let other = Script { turns: vec![(116, 3.0, 15)], ..Script::straight(650.0, -900.0, 0.0, 3.0) };
+    let turns = vec![(126, 6.0, 2), (146, 6.0, 12)];
+    let trace = run(&Script { psi_deg: -40.0, speed_mps: 8.0, turns, ..own() }, &[other], 500);
+    assert_eq!(finding(&trace, Check::Safe).status, Finding::Holds);
+    assert_eq!(finding(&trace, Check::R13).status, Finding::Holds);
+}
+
 /// What a duty to give way to another forced is excused with its way back, however late; another
 /// alteration after that duty is not.
 #[test]

@@ -245,6 +245,21 @@ fn she_who_had_room_was_not_forced() {
     expect(&meets(245.0, 1.0), Check::R13, Pass, "");
 }
 
+/// She goes off her plan with room and comes back to it, and later has to go off it again.
+#[test]
+fn she_who_had_room_once_may_be_forced_later() {
+    let meets = |off_again: bool| {
+        let own_ship = own(8.0).turn(15.0, 3.0).hold(70.0).turn(-18.0, 3.0).hold(160.0);
+        let she = Script::new(ship(40.0, 8.0), 1500.0, 5.0, 0.0, 3.0).hold(30.0);
+        let she = she.turn(-25.0, 3.0).hold(15.0).turn(25.0, 3.0).hold(130.0);
+        let she = if off_again { she.turn(-25.0, 3.0) } else { she };
+        let scene = Scene::new(own_ship.turn(40.0, 3.0).hold(700.0), she.hold(700.0));
+        judge(&scene.nominal_targets(vec![slow_ahead().hold(400.0)]))
+    };
+    expect(&meets(false), Check::R13, Pass, "");
+    expect(&meets(true), Check::R13, Fail, "FAIL-13D-FORCED");
+}
+
 #[test]
 fn does_not_apply_to_other_classes() {
     for (speed, other) in [(6.0, head_on()), (6.0, from_starboard()), (3.0, fast_astern())] {

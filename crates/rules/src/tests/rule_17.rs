@@ -105,6 +105,30 @@ fn from_stage_3_on_she_may_act() {
     expect(&before, Check::R17Hold, Fail, "FAIL-17AI");
 }
 
+/// The other gives way and then turns back towards own ship without a pause. Risk has closed, and a
+/// prediction made from a turn opens none: own ship may not act before the other is steady.
+#[test]
+fn a_pass_that_a_turn_predicts_gives_no_right_to_act() {
+    let other = |rate_degps: f64| {
+        Script::new(ship(40.0, 8.0), 1800.0, -1800.0, deg(90.0), 6.0)
+            .hold(100.0)
+            .turn(30.0, 2.0)
+            .hold(60.0)
+            .turn(-80.0, rate_degps)
+            .hold(500.0)
+    };
+    let may_act_s = |rate_degps: f64| {
+        let scene = Scene::new(own(6.0).hold(600.0), other(rate_degps));
+        let judgement = judge(&scene.nominal_targets(vec![from_port().hold(1000.0)]));
+        verdict(&judgement, Check::R17May).t_s
+    };
+    // she turns from 175 s to 255 s, over 80 degrees; risk opens when the turn is over
+    let may_s = may_act_s(1.0).expect("she comes on");
+    assert!((255.0..265.0).contains(&may_s), "{may_s}");
+    // and here she turns on until the pass is wide again
+    assert_eq!(may_act_s(2.0), None);
+}
+
 /// She may act from 218 s on: a cut of her speed that begins with that second is by right, one that
 /// has begun a second before is not.
 #[test]
